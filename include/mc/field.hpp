@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "mc/base.hpp"
+
+// Scalar fields on a lattice, and the ports they come in by: SlabReader for dense volumes,
+// LeafReader for sparse ones. Sources implement them; the engine knows nothing else. VolumeSink is
+// the port by which volumes (not meshes) leave.
+
+namespace mc {
+
+/// A 3x4 affine map, row-major: world = m * (i, j, k, 1).
+struct Affine {
+  std::array<double, 12> m{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+
+  static Affine scale_translate(const Vec3& spacing, const Vec3& origin);
+
+  /// Terms are added in one fixed order, ((m0*i + m1*j) + m2*k) + m3, without fused multiply-add.
+  [[nodiscard]] Vec3 operator()(const Vec3& p) const;
+  /// Determinant of the linear part; negative for a mirroring map.
+  [[nodiscard]] double determinant() const;
+  /// The map that applies `first`, then this one.
+  [[nodiscard]] Affine after(const Affine& first) const;
+  /// Length of the image of a unit step along `axis`.
+  [[nodiscard]] double spacing(int axis) const;
+  bool operator==(const Affine&) const = default;
+};
+
+/// An inclusive box of lattice indices.
+struct IndexBox {
+  Index3 lo{};
+  Index3 hi{-1, -1, -1};
+
+  [[nodiscard]] std::int64_t extent(int axis) const {
+    const auto a = static_cast<std::size_t>(axis);
+    return std::int64_t{hi[a]} - lo[a] + 1;
+  }
+  [[nodiscard]] bool contains(const Index3& p) const;
+  [[nodiscard]] bool contains(const IndexBox& other) const;
+  bool operator==(const IndexBox&) const = default;
+};
+
+/// Where samples are: their index box, and where an index lies in the world.
+struct Lattice {
+  IndexBox box;  ///< dense volumes start at 0,0,0; sparse ones give their active bounding box
+  Affine to_world;
+
+  [[nodiscard]] Index3 dims() const;  ///< precondition: each extent fits 31 bits
+};
+
+enum class SampleType : std::uint8_t { u8, i8, u16, i16, u32, i32, i64, f16, f32, f64 };
+
+[[nodiscard]] std::size_t sample_size(SampleType type);  ///< bytes
+[[nodiscard]] const char* sample_name(SampleType type);  ///< "u8" ... "f64", as on the command line
+[[nodiscard]] std::optional<SampleType> sample_type_named(std::string_view name);
+
+/// The bits of an IEEE binary16 number; arithmetic happens in float.
+struct Half {
+  std::uint16_t bits;
+};
+[[nodiscard]] float to_float(Half h) noexcept;
+/// Rounds to nearest, ties to even.
+[[nodiscard]] Half to_half(float f) noexcept;
+
+/// One sample of some SampleType, in native byte order.
+struct Scalar {
+  alignas(8) std::array<std::byte, 8> bytes{};
+
+  template <class T>
+  static Scalar of(T value) {
+    Scalar s;
+    std::memcpy(s.bytes.data(), &value, sizeof value);
+    return s;
+  }
+  template <class T>
+  [[nodiscard]] T as() const {
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+  }
+  bool operator==(const Scalar&) const = default;
+};
+[[nodiscard]] double to_double(Scalar s, SampleType type);
+
+/// What the numbers mean, as far as the source says; it decides the default iso and solid side.
+enum class VolumeClass : std::uint8_t { unknown, level_set, fog, mask, density_spec, sdf_spec };
+/// Which axes world coordinates follow: none known, right-anterior-superior,
+/// left-posterior-superior.
+enum class Frame : std::uint8_t { none, ras, lps };
+enum class Units : std::uint8_t { unknown, mm, m };
+/// What surrounds the volume: nothing (the mesh ends there), not-solid samples, or solid samples.
+enum class Border : std::uint8_t { open, closed, solid };
+
+/// What a source says of its volume.
+struct Volume {
+  std::string name;    ///< of the grid; empty where it has none
+  std::string format;  ///< "vdb", "raw", "nrrd", "spec"
+  Lattice lattice;
+  SampleType type = SampleType::f32;
+  std::endian endian = std::endian::native;  ///< of the samples a SlabReader hands out
+  VolumeClass cls = VolumeClass::unknown;
+  Frame frame = Frame::none;
+  Units units = Units::unknown;
+  std::optional<double> iso;              ///< the source's own, if it has one
+  std::optional<Border> border;           ///< the source's own, if it has one
+  std::string stored_as;                  ///< "half" where the file stores less than `type`; or ""
+  std::optional<std::uint64_t> n_active;  ///< sparse: active samples
+};
+
+/// Consecutive planes of samples: planes[n] is plane k0 + n, rows lie row_stride_bytes apart, the
+/// samples of a row are adjacent, nothing is aligned. Mapped sources point into the mapping, others
+/// into `storage`, which a reused Slab keeps from read to read.
+struct Slab {
+  std::int32_t k0 = 0;
+  std::vector<const std::byte*> planes;
+  std::size_t row_stride_bytes = 0;
+  Buffer<std::byte> storage;
+};
+
+/// The port of dense volumes.
+class SlabReader {
+ public:
+  virtual ~SlabReader() = default;
+  [[nodiscard]] virtual const Volume& volume() const = 0;
+  /// Hands out planes [k0, k1) of the volume's box (k counts from box.lo[2] = 0).
+  /// Threads: may be called from several threads at once, in any order, each with its own Slab.
+  /// Errors: input, when the planes cannot be read.
+  virtual void read(std::int32_t k0, std::int32_t k1, Slab& out) const = 0;
+  /// Whether reading planes again costs no more than memory bandwidth (mapped files).
+  [[nodiscard]] virtual bool rereads_cheaply() const = 0;
+};
+
+/// A cube of equal samples, `size` a multiple of 8, `origin` a multiple of `size`.
+struct Tile {
+  Index3 origin{};
+  std::int32_t size = 0;
+  Scalar value;
+  bool active = false;
+};
+
+/// The port of sparse volumes: 8x8x8 leaves, tiles, and a background everywhere else. Leaves and
+/// tiles do not overlap. Inactive values count as values.
+class LeafReader {
+ public:
+  /// Samples of one leaf.
+  static constexpr std::size_t kLeafSamples = 512;
+
+  virtual ~LeafReader() = default;
+  [[nodiscard]] virtual const Volume& volume() const = 0;
+  [[nodiscard]] virtual Scalar background() const = 0;
+  /// Origins of all leaves (multiples of 8), ordered by (z, y, x).
+  [[nodiscard]] virtual std::span<const Index3> leaves() const = 0;
+  /// The 512 samples of leaf n, sample (x, y, z) at x*64 + y*8 + z, in native byte order, in the
+  /// volume's type. Returns memory of the reader's, or `scratch` (512 * 8 bytes) filled.
+  /// Threads: may be called from several threads at once.
+  virtual const std::byte* leaf_values(std::size_t n, std::byte* scratch) const = 0;
+  /// Bit x*64 + y*8 + z of the eight words is set where the sample is active.
+  [[nodiscard]] virtual std::array<std::uint64_t, 8> leaf_active(std::size_t n) const = 0;
+  /// Every tile whose value differs from the background or that is active, in any order.
+  [[nodiscard]] virtual std::span<const Tile> tiles() const = 0;
+};
+
+/// A volume of either kind.
+using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>>;
+[[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
+
+/// The port by which volumes leave.
+class VolumeSink {
+ public:
+  virtual ~VolumeSink() = default;
+  /// Called once, before any samples.
+  virtual void begin(const Volume& volume) = 0;
+  /// Planes in order from 0, each exactly once.
+  virtual void write(const Slab& slab) = 0;
+  /// Takes a sparse volume whole and keeps it sparse. Returns false if the format is dense: the
+  /// caller then hands planes to write().
+  virtual bool write_sparse(const LeafReader& reader) = 0;
+  /// Completes the output and puts it under its name. Not called: nothing remains.
+  virtual void finish() = 0;
+};
+
+/// A dense reader over part of a sparse one: `box` is filled from leaves, tiles and background.
+/// The result's lattice starts at 0,0,0 and has box.lo moved into its affine. Keeps a reference.
+std::unique_ptr<SlabReader> dense_view(const LeafReader& sparse, const IndexBox& box);
+
+/// Part of a dense volume; indices start at 0,0,0 again, the affine keeps samples in place.
+/// Keeps a reference.
+std::unique_ptr<SlabReader> crop_view(const SlabReader& whole, const IndexBox& box);
+
+/// What the numbers of a volume are. Sparse volumes: active samples only, active tiles included.
+struct FieldStatistics {
+  std::uint64_t n_samples = 0;  ///< all that were looked at
+  std::uint64_t n_nan = 0;
+  std::uint64_t n_infinite = 0;
+  double min = 0, max = 0, mean = 0;  ///< over the finite samples; NaN where there are none
+  double otsu = 0;  ///< the threshold of Otsu 1979; NaN where there are no finite samples
+  std::vector<double> percentiles;  ///< in the order asked for
+};
+
+/// Reads every sample (the scalars more than once where percentiles of wide types are asked for).
+/// Percentiles  in [0, 100], nearest rank over the samples that are not NaN: always a value of the
+/// data. Otsu     exact histogram for 8- and 16-bit types, else 1024 bins over the finite range;
+/// the value
+///          is the upper edge of the winning bin.
+/// Threads  uses the caller's arena; the result does not depend on the thread count.
+/// Cost     one pass; plus for percentiles of 32- and 64-bit types one pass for each 16 bits.
+/// Source   Otsu, "A threshold selection method from gray-level histograms", IEEE SMC 1979.
+FieldStatistics measure_field(const VolumeReader& reader, std::span<const double> percentiles,
+                              Progress& progress, const std::stop_token& stop);
+
+}  // namespace mc

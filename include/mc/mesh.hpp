@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/base.hpp"
+
+// Triangle meshes, whole (Mesh) or as a stream of chunks (MeshChunk into a MeshSink), and their
+// figures.
+
+namespace mc {
+
+enum class Precision : std::uint8_t { f32, f64 };
+
+struct Bounds {
+  Vec3 lo{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::infinity()};
+  Vec3 hi{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+          -std::numeric_limits<double>::infinity()};
+
+  [[nodiscard]] bool empty() const { return !(lo[0] <= hi[0]); }
+  void include(const Vec3& p);
+  void include(const Bounds& other);
+};
+
+/// What is known of a mesh without holding it. World units.
+struct MeshTotals {
+  std::uint64_t n_vertices = 0;
+  std::uint64_t n_triangles = 0;
+  std::uint64_t n_boundary_edges = 0;
+  Bounds bounds;                 ///< of the vertices as stored
+  std::optional<double> area;    ///< only when measured
+  std::optional<double> volume;  ///< signed, positive for outward winding; only when measured
+
+  /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
+  [[nodiscard]] std::int64_t euler() const;
+};
+
+/// Part of a mesh, in order: its vertices follow those of the chunks before it. An index names
+/// vertex index_base + index of the whole mesh, which may lie in a later chunk.
+struct MeshChunk {
+  std::uint64_t index_base = 0;
+  Buffer<float> positions;        ///< x, y, z each; empty when double precision was asked for
+  Buffer<double> positions_f64;   ///< x, y, z each; only when double precision was asked for
+  Buffer<float> normals;          ///< x, y, z each, unit length; empty without normals
+  Buffer<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from outside
+
+  [[nodiscard]] std::size_t n_vertices() const {
+    return (positions.size() + positions_f64.size()) / 3;
+  }
+  [[nodiscard]] std::size_t n_triangles() const { return indices.size() / 3; }
+  void clear();  ///< keeps the memory
+};
+
+/// One object (one iso) of an output, announced before its chunks.
+struct MeshObject {
+  std::string name;  ///< "iso 0.5", or the grid's name
+  double iso = 0;
+  bool has_normals = false;
+  Precision precision = Precision::f32;
+  /// Added to every position (the node's translation in glTF); zero unless the sink asked for it.
+  Vec3 origin{};
+  /// Exact counts, where a counting pass was made.
+  std::optional<std::uint64_t> n_vertices;
+  std::optional<std::uint64_t> n_triangles;
+};
+
+/// What a sink needs to know before it can say how positions must come.
+struct MeshNeeds {
+  Precision precision = Precision::f32;  ///< of positions
+  bool relative_origin = false;          ///< positions come relative to MeshObject::origin
+};
+
+/// The port by which meshes leave. Calls: (begin_object, write..., end_object)..., finish.
+/// Destroyed before finish(), it leaves nothing behind.
+class MeshSink {
+ public:
+  virtual ~MeshSink() = default;
+  /// Errors: limit, when counts that are known already do not fit the format; output.
+  virtual void begin_object(const MeshObject& object) = 0;
+  /// Chunks in order. Errors: limit, output.
+  virtual void write(const MeshChunk& chunk) = 0;
+  virtual void end_object(const MeshTotals& totals) = 0;
+  /// Completes the output and puts it under its name(s).
+  virtual void finish() = 0;
+};
+
+/// A mesh in memory.
+struct Mesh {
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<float, 3>> normals;  ///< one a vertex, or none
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+/// A mesh read back from a file, as `check` wants it: what is there, also where it is wrong.
+struct MeshSoup {
+  std::vector<Vec3> positions;
+  std::vector<std::array<float, 3>> normals;            ///< one a vertex, or none
+  std::vector<std::array<std::uint64_t, 3>> triangles;  ///< may be out of range: check says so
+};
+
+/// What `mc check` finds.
+struct MeshReport {
+  std::uint64_t n_vertices = 0, n_triangles = 0;
+  std::uint64_t not_finite = 0;         ///< vertices with a coordinate or normal that is not finite
+  std::uint64_t out_of_range = 0;       ///< triangles with an index past the last vertex
+  std::uint64_t degenerate = 0;         ///< triangles of zero area or with a repeated vertex
+  std::uint64_t duplicate = 0;          ///< triangles beyond the first on the same three vertices
+  std::uint64_t boundary_edges = 0;     ///< one triangle
+  std::uint64_t nonmanifold_edges = 0;  ///< more than two triangles
+  std::uint64_t nonmanifold_vertices = 0;   ///< whose triangles form more than one fan
+  std::uint64_t misoriented_edges = 0;      ///< two triangles that run the same way
+  std::uint64_t unreferenced_vertices = 0;  ///< reported, no defect
+  std::uint64_t duplicate_vertices = 0;  ///< same position as an earlier one; reported, no defect
+  std::uint64_t components = 0;          ///< over shared vertices
+  std::int64_t euler = 0;                ///< V - E + F over referenced vertices
+  double area = 0, volume = 0;
+  Bounds bounds;
+
+  [[nodiscard]] bool closed() const { return boundary_edges == 0; }
+  /// Status 7's reasons; boundary edges count only when `must_be_closed`.
+  [[nodiscard]] bool defective(bool must_be_closed) const;
+};
+
+/// Checks a mesh.
+/// Errors   none: whatever is wrong is counted.
+/// Cost     O(n log n) time, about 40 bytes a triangle.
+MeshReport check_mesh(const MeshSoup& mesh);
+
+}  // namespace mc

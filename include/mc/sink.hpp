@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "mc/base.hpp"
+#include "mc/field.hpp"
+#include "mc/mesh.hpp"
+
+// Opening outputs. Every output is written as NAME.partial-XXXX in the same folder and renamed by
+// finish(); devices, FIFOs and stdout are written in place.
+
+namespace mc {
+
+struct SinkOptions {
+  std::string
+      to;  ///< "ply", "obj", "stl", "glb", "gltf"; "vdb", "nrrd", "raw"; empty: by extension
+  bool force = false;  ///< replace an existing file; write binary to a terminal
+  bool ascii = false;  ///< PLY, STL: text form
+  std::optional<Precision>
+      precision;  ///< PLY coordinates; unset: f32 unless it would move a vertex
+  /// Facts written into the file (PLY/OBJ comments, glTF asset.extras), in order. Never time, host,
+  /// path, threads, memory or SIMD target.
+  std::vector<std::pair<std::string, std::string>> provenance;
+};
+
+/// The format that `options.to` or the extension of `path` names ("ply" ... "raw").
+/// Errors   usage: unknown or missing; the message lists what there is.
+std::string output_format(std::string_view path, const SinkOptions& options);
+/// Whether that format holds meshes (else volumes).
+bool is_mesh_format(std::string_view format);
+
+/// How a mesh format wants its positions. `f32_moves` says that float would move a vertex of this
+/// volume by more than 1/8192 of a cell.
+MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f32_moves);
+/// Objects that one file of the format can hold: 1 for PLY and STL.
+bool holds_several_objects(std::string_view format);
+
+/// Opens a mesh output; "-" is stdout. The partial file is made here, so that an output that cannot
+/// be written is found before the work. Errors   output: exists (without force), missing or
+/// read-only folder, terminal; usage: options.
+std::unique_ptr<MeshSink> open_mesh_sink(const std::string& path, const SinkOptions& options);
+std::unique_ptr<VolumeSink> open_volume_sink(const std::string& path, const SinkOptions& options);
+
+/// Unlinks every partial file of this process. Async-signal-safe enough for a signal thread: takes
+/// no lock that a blocked writer holds.
+void unlink_partials() noexcept;
+
+}  // namespace mc

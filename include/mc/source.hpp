@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "mc/base.hpp"
+#include "mc/field.hpp"
+#include "mc/mesh.hpp"
+
+// Opening files that hold volumes (and, for `check`, meshes). What a file is, its content decides
+// before its name does.
+
+namespace mc {
+
+/// What the user says of the input; everything unset is read from the file.
+struct SourceOptions {
+  std::string from;                 ///< "vdb", "raw", "nrrd", "spec"; empty: decide
+  std::optional<std::string> grid;  ///< VDB: NAME, NAME[n] or #n
+  std::vector<std::int64_t>
+      dims;  ///< raw: two or three, each > 0; with two, the slices are counted
+  std::optional<SampleType> type;  ///< raw
+  std::endian endian = std::endian::little;
+  std::uint64_t skip_bytes = 0;  ///< raw: header of each file
+  std::optional<Vec3> spacing;   ///< world units; overrides the file's
+  std::optional<Vec3> origin;    ///< world position of sample 0,0,0; overrides the file's
+};
+
+struct Source {
+  std::string place;  ///< how messages name it: the path, or "<stdin>"
+  VolumeReader reader;
+  std::vector<std::string> other_grids;  ///< VDB: scalar grids that were not chosen
+};
+
+/// Opens a volume. `inputs`: one file, "-" for stdin, a folder, a glob that the shell left alone,
+/// or several raw slices (natural order is made here).
+/// Errors   input: missing, empty, damaged, of the wrong size, nothing to mesh; usage: options that
+///          contradict each other or the kind of file, an invalid spec.
+Source open_source(std::span<const std::string> inputs, const SourceOptions& options,
+                   Progress& progress);
+
+/// One line of `mc info`: a grid that may or may not be meshable.
+struct GridDescription {
+  Volume volume;
+  std::string type_name;  ///< "float", "vec3s", "ptdataidx32": as the format calls it
+  std::string refused;    ///< why it cannot be meshed; empty if it can
+};
+
+/// Lists everything in the input without reading samples where the format allows it.
+std::vector<GridDescription> describe_source(std::span<const std::string> inputs,
+                                             const SourceOptions& options, Progress& progress);
+
+/// Reads a mesh: PLY, OBJ, STL (welded by exact position), glTF, GLB, decided by content. Several
+/// primitives or objects become one soup. "-" is stdin.
+/// Errors   input.
+MeshSoup read_mesh(const std::string& path);
+
+}  // namespace mc

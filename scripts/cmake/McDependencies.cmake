@@ -1,0 +1,29 @@
+# What mc stands on, all from the distribution. Formats whose library is missing are left out, and
+# the program then names the package that would bring them.
+
+find_package(TBB CONFIG REQUIRED COMPONENTS tbb) # before OpenVDB, which defines the same targets
+find_package(fmt CONFIG REQUIRED)
+find_package(hwy CONFIG REQUIRED)
+find_package(nlohmann_json CONFIG REQUIRED)
+find_package(CLI11 CONFIG REQUIRED)
+
+find_package(TinyGLTF CONFIG QUIET)
+option(MC_GLTF "glTF and GLB through tinygltf" ${TinyGLTF_FOUND})
+
+# Debian ships OpenVDB's find module outside CMake's own path; it is searched last, since its
+# neighbours FindTBB and FindOpenEXR would shadow the good ones.
+list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
+find_package(OpenVDB 10 QUIET COMPONENTS openvdb)
+option(MC_VDB "OpenVDB volumes" ${OpenVDB_FOUND})
+
+# Links what the formats need to `target` and defines MC_WITH_* for those that are built in.
+function(mc_link_formats target)
+  target_compile_definitions(${target} PUBLIC
+    MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>)
+  if(MC_VDB)
+    target_link_libraries(${target} PRIVATE OpenVDB::openvdb)
+  endif()
+  if(MC_GLTF)
+    target_link_libraries(${target} PRIVATE TinyGLTF::TinyGLTF)
+  endif()
+endfunction()

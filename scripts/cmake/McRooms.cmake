@@ -1,0 +1,21 @@
+# Rooms of the house (folders of src/) to libraries. A new file in a room needs no edit here.
+
+# All sources below the given rooms.
+function(mc_room_sources out)
+  set(all)
+  foreach(room IN LISTS ARGN)
+    file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
+    list(APPEND all ${found})
+  endforeach()
+  set(${out} ${all} PARENT_SCOPE)
+endfunction()
+
+# A static library of the given rooms.
+function(mc_library target)
+  mc_room_sources(sources ${ARGN})
+  add_library(${target} STATIC ${sources})
+  add_library(mc::${target} ALIAS ${target})
+  mc_strict(${target})
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target} PRIVATE ${CMAKE_SOURCE_DIR}/src)
+endfunction()

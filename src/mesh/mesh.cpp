@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include "mc/mesh.hpp"
+
+#include <algorithm>
+
+namespace mc {
+
+void Bounds::include(const Vec3& p) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    lo[a] = std::min(lo[a], p[a]);
+    hi[a] = std::max(hi[a], p[a]);
+  }
+}
+
+void Bounds::include(const Bounds& other) {
+  if (!other.empty()) {
+    include(other.lo);
+    include(other.hi);
+  }
+}
+
+std::int64_t MeshTotals::euler() const {
+  const auto edges = (3 * n_triangles + n_boundary_edges) / 2;
+  return static_cast<std::int64_t>(n_vertices) - static_cast<std::int64_t>(edges) +
+         static_cast<std::int64_t>(n_triangles);
+}
+
+void MeshChunk::clear() {
+  index_base = 0;
+  positions.clear();
+  positions_f64.clear();
+  normals.clear();
+  indices.clear();
+}
+
+}  // namespace mc

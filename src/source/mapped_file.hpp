@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+// A file's bytes, read-only. Regular files are mapped; what cannot be mapped (a pipe, a FIFO) is
+// first copied to an unlinked temporary file in $TMPDIR, so that every reader may seek.
+
+namespace mc::source {
+
+class MappedFile {
+ public:
+  /// "-" is stdin. Errors: input (missing, a folder, unreadable, empty).
+  explicit MappedFile(const std::string& path);
+  ~MappedFile();
+  MappedFile(MappedFile&& other) noexcept;
+  MappedFile& operator=(MappedFile&& other) noexcept;
+  MappedFile(const MappedFile&) = delete;
+  MappedFile& operator=(const MappedFile&) = delete;
+
+  [[nodiscard]] std::span<const std::byte> bytes() const { return {data_, size_}; }
+  [[nodiscard]] std::string_view text() const;
+  /// How messages name it: the path, or "<stdin>".
+  [[nodiscard]] const std::string& place() const { return place_; }
+
+ private:
+  std::string place_;
+  const std::byte* data_ = nullptr;
+  std::size_t size_ = 0;
+};
+
+}  // namespace mc::source
