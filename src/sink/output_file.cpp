@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <system_error>
 #include <utility>
@@ -66,11 +67,14 @@ class Writer {
   Writer& operator=(const Writer&) = delete;
 
   [[nodiscard]] int fd() const { return fd_; }
-  [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
+  [[nodiscard]] std::uint64_t size() const { return flushed_ + buffered_; }
   [[nodiscard]] const std::string& place() const { return place_; }
 
   void append(std::span<const std::byte> bytes) {
-    if (buffer_.size() + bytes.size() > kBufferBytes) {
+    if (bytes.empty()) {
+      return;
+    }
+    if (buffered_ + bytes.size() > kBufferBytes) {
       flush();
     }
     if (bytes.size() >= kBufferBytes) {
@@ -78,16 +82,16 @@ class Writer {
       flushed_ += bytes.size();
       return;
     }
-    if (buffer_.capacity() == 0) {
-      buffer_.reserve(kBufferBytes);
+    if (!buffer_) {
+      buffer_ = std::make_unique_for_overwrite<std::byte[]>(kBufferBytes);
     }
-    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+    std::memcpy(buffer_.get() + buffered_, bytes.data(), bytes.size());
+    buffered_ += bytes.size();
   }
 
   void flush() {
-    put(flushed_, buffer_);
-    flushed_ += buffer_.size();
-    buffer_.clear();
+    put(flushed_, {buffer_.get(), buffered_});
+    flushed_ += std::exchange(buffered_, 0);
   }
 
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
@@ -149,8 +153,9 @@ class Writer {
   int fd_;
   bool offsets_;
   std::string place_;
-  std::uint64_t flushed_ = 0;  // where the buffer will go
-  Buffer<std::byte> buffer_;
+  std::uint64_t flushed_ = 0;            // where the buffer will go
+  std::unique_ptr<std::byte[]> buffer_;  // none, or kBufferBytes
+  std::size_t buffered_ = 0;
 };
 
 /// The file that `path` names in the end, which need not exist.
@@ -328,7 +333,8 @@ void OutputFile::skip(std::uint64_t n_bytes) { state_->writer->skip(n_bytes); }
 void OutputFile::shift(std::uint64_t offset, std::uint64_t n_bytes) {
   assert(offset <= size());
   Writer& writer = *state_->writer;
-  Buffer<std::byte> block(kBufferBytes);
+  Buffer<std::byte> block(
+      static_cast<std::size_t>(std::min<std::uint64_t>(kBufferBytes, size() - offset)));
   std::uint64_t end = size();  // from the end down, as the two places overlap
   writer.skip(n_bytes);
   while (end > offset) {
@@ -436,11 +442,11 @@ void SpoolFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
 }
 
 void SpoolFile::copy_to(OutputFile& out) {
-  Buffer<std::byte> block(kBufferBytes);
   const std::uint64_t n_bytes = size();
+  Buffer<std::byte> block(static_cast<std::size_t>(std::min<std::uint64_t>(kBufferBytes, n_bytes)));
   for (std::uint64_t at = 0; at < n_bytes; at += block.size()) {
-    const std::span<std::byte> part = std::span(block).first(
-        static_cast<std::size_t>(std::min<std::uint64_t>(n_bytes - at, block.size())));
+    const std::uint64_t n = std::min<std::uint64_t>(block.size(), n_bytes - at);
+    const std::span<std::byte> part = std::span(block).first(static_cast<std::size_t>(n));
     read(at, part);
     out.append(part);
   }
