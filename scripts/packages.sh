@@ -21,7 +21,7 @@ mc_test_packages=(
 )
 
 mc_check_packages=(
-  clang-14 clang-tidy-14 libclang-rt-14-dev pandoc:pandoc shellcheck:shellcheck
+  clang:clang++ clang-tidy-14 libclang-rt-14-dev pandoc:pandoc shellcheck:shellcheck
 )
 
 mc_picture_packages=(f3d:f3d xvfb:xvfb-run)
