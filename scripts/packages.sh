@@ -59,34 +59,32 @@ mc_install_packages() {
     return 2
   fi
   echo "mc: installing $missing" >&2
-  # shellcheck disable=SC2086 # one word a package
-  if mc_apt_lists_present && mc_apt_get install --no-install-recommends $missing; then
-    MC_PACKAGES_INSTALLED=yes
-    return 0
-  fi
-  # The lists are missing (fresh containers) or too old to find the packages.
-  # shellcheck disable=SC2086
-  if ! { mc_apt_get update && mc_apt_get install --no-install-recommends $missing; }; then
-    echo "mc: error: packages: cannot install $missing: see apt-get's messages above" >&2
-    return 2
-  fi
-  MC_PACKAGES_INSTALLED=yes
-}
-
-mc_apt_lists_present() {
-  compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null
-}
-
-# apt-get without questions, without a terminal, waiting for another apt-get; quiet but for errors.
-mc_apt_get() {
-  local log
+  local log status=0
   log=$(mktemp)
-  if DEBIAN_FRONTEND=noninteractive apt-get -y -qq -o DPkg::Lock::Timeout=900 -o Dpkg::Use-Pty=0 \
-    -o Acquire::Retries=3 "$@" </dev/null >"$log" 2>&1; then
-    rm -f "$log"
+  # shellcheck disable=SC2086 # one word a package
+  mc_apt_install $missing >"$log" 2>&1 </dev/null || status=2
+  if ((status != 0)); then
+    tail -n 40 "$log" >&2
+    echo "mc: error: packages: cannot install $missing: see apt-get's messages above" >&2
+  fi
+  rm -f "$log"
+  MC_PACKAGES_INSTALLED=yes
+  return "$status"
+}
+
+# Installs packages. Where the lists are missing (fresh containers) or too old to find what they
+# name, they are fetched first; whether that worked, the installation shows.
+mc_apt_install() {
+  if compgen -G '/var/lib/apt/lists/*_Packages*' >/dev/null &&
+    mc_apt_get install --no-install-recommends "$@"; then
     return 0
   fi
-  tail -n 40 "$log" >&2
-  rm -f "$log"
-  return 1
+  mc_apt_get update
+  mc_apt_get install --no-install-recommends "$@"
+}
+
+# apt-get without questions and without a terminal, waiting for another apt-get.
+mc_apt_get() {
+  DEBIAN_FRONTEND=noninteractive apt-get -y -qq -o DPkg::Lock::Timeout=900 -o Dpkg::Use-Pty=0 \
+    -o Acquire::Retries=3 "$@"
 }
