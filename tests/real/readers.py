@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Opens what mc writes in programs that know nothing of ours.
 
-    readers.py assimp|vtk|gltf-validator MC [VALIDATOR]
+    readers.py assimp|vtk MC
+    readers.py gltf-validator MC SCRIPT MODULES
 
 Extracts a small terrain and a ball to every mesh format and compares the counts that assimp or VTK
-find with those mc reports; or runs the Khronos glTF validator (VALIDATOR: a script for node). A
-reader that is not installed is a skip, said aloud.
+find with those mc reports; or runs the Khronos glTF validator through SCRIPT, for node, with the npm
+packages in MODULES/node_modules. A reader that is not installed is a skip, said aloud.
 """
 
 import json
@@ -95,7 +96,7 @@ def compare(counts, mc, folder):
                     print(f"{name}.{suffix} {options}: {got[0]} vertices, {got[1]} triangles")
 
 
-def validate(mc, validator, folder):
+def validate(mc, script, modules, folder):
     """What the Khronos validator says against our glTF."""
     for name, document in SPECS.items():
         spec = folder / f"{name}.json"
@@ -105,7 +106,7 @@ def validate(mc, validator, folder):
                 path = folder / f"{name}.{suffix}"
                 extract(mc, spec, path, *options)
                 done = subprocess.run(
-                    ["node", validator, path], capture_output=True, text=True, check=False
+                    ["node", script, "--modules", modules, path], capture_output=True, text=True, check=False
                 )
                 print(f"{path.name} {options}: {done.stdout.strip()[:2000]}")
                 if done.returncode != 0:
@@ -124,8 +125,9 @@ def missing(reader, arguments):
         return None if shutil.which("assimp") else "no assimp (package assimp-utils)"
     if not shutil.which("node"):
         return "no node (package nodejs)"
-    if not pathlib.Path(arguments[1]).is_dir():
-        return f"no {arguments[1]} (scripts/test installs it with npm)"
+    package = pathlib.Path(arguments[1], "node_modules", "gltf-validator")
+    if not package.is_dir():
+        return f"no {package} (scripts/test installs it with npm)"
     return None
 
 
@@ -138,7 +140,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         if reader == "gltf-validator":
-            faults = list(validate(mc, rest[0], folder))
+            faults = list(validate(mc, *rest, folder))
         else:
             counts = assimp_counts if reader == "assimp" else vtk_counts
             faults = list(compare(counts, mc, folder))
