@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <stop_token>
 
 #include "mc/extract.hpp"
@@ -14,6 +15,7 @@ namespace mc {
 
 struct RunOptions {
   ExtractOptions extract;
+  std::optional<Affine> to_world;  ///< instead of the volume's own
   MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
   std::uint64_t memory_bytes = 1ULL << 30;  ///< the run's own buffers stay within it
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
