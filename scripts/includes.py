@@ -50,7 +50,7 @@ DOORS = {
 # What a system brings without a library: the C++ and C headers have no suffix or are listed.
 SYSTEM = re.compile(
     r"[a-z_0-9]+|(sys|linux|asm)/[a-z_0-9]+\.h|"
-    r"(errno|fcntl|poll|pthread|sched|signal|termios|time|unistd|dirent|glob|spawn|malloc)\.h"
+    r"(dirent|errno|fcntl|glob|malloc|poll|pthread|sched|signal|spawn|stdio|termios|time|unistd)\.h"
 )
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')
 
