@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/io.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Prune.h>
+#include <openvdb/util/Name.h>
 
 #include <algorithm>
 #include <array>
@@ -17,8 +19,8 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <ostream>
+#include <sstream>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -365,7 +367,16 @@ openvdb::math::MapBase::Ptr map_of(const Affine& affine) {
 
 openvdb::math::Transform::Ptr transform_of(const Affine& affine, const std::string& place) {
   try {
-    return std::make_shared<openvdb::math::Transform>(map_of(affine));
+    // Made from a map, a Transform replaces it by a simpler one that is only nearly equal (its
+    // tolerances are absolute: a small rotation is lost). Read from a stream, it takes it as it is.
+    const openvdb::math::MapBase::Ptr map = map_of(affine);
+    std::stringstream bytes;
+    openvdb::io::setCurrentVersion(bytes);
+    openvdb::writeString(bytes, map->type());
+    map->write(bytes);
+    auto transform = std::make_shared<openvdb::math::Transform>();
+    transform->read(bytes);
+    return transform;
   } catch (const openvdb::ArithmeticError&) {
     throw Error(ErrorKind::output, place,
                 fmt::format("a cell of volume {} cannot be placed by a VDB file",

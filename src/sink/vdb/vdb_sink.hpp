@@ -17,8 +17,10 @@ namespace mc::sink {
 ///          for level sets and signed distances the greatest sample, at least one cell; for all
 ///          else the least sample, at most 0. Memory: the tree.
 /// Sparse   leaves, tiles and active masks are written as they are, nothing is pruned.
-/// Metadata class (a signed distance is a level set where its iso is 0), provenance, and `mc_class`
-///          (of specs), `mc_iso`, `mc_border` where the volume has them.
+/// Metadata class (a signed distance is a level set where its iso is 0) and name ("surface" or
+///          "density" where a dense volume has none); `mc_class` where OpenVDB has no word for it,
+///          `mc_iso`, `mc_border`, `mc_frame`, `mc_units` where the volume has them. Provenance is
+///          metadata of the file.
 /// Bytes    the same for the same volume: the file's UUID is a hash of the rest.
 /// Errors   usage: built without OpenVDB; output: a map that cannot be inverted.
 std::unique_ptr<VolumeSink> open_vdb(const std::string& path, const SinkOptions& options);

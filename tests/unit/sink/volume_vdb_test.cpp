@@ -151,6 +151,7 @@ TEST(VdbSink, PlacesSamplesByAnyLinearMap) {
   const std::vector<Affine> maps{{{0.1, 0.2, 0, 5, -0.3, 0.1, 0.7, 6, 0.01, 0, -1, 7}},
                                  Affine::scale_translate({0.1, 0.1, 0.1}, {0, 0, 0}),
                                  Affine::scale_translate({0.1, 0.1, 0.1}, {1, 2, 1e-9}),
+                                 {{0.001, 1e-9, 0, 0, 0, 0.001, 0, 0, 0, 0, 0.001, 3}},
                                  Affine::scale_translate({-0.5, 0.5, 2}, {0, 0, 0}),
                                  Affine::scale_translate({1, 1, 1 + 1e-15}, {-1, 2, 3})};
   for (const Affine& map : maps) {
