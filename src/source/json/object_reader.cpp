@@ -74,8 +74,10 @@ std::int64_t ObjectReader::integer(const char* key, std::optional<std::int64_t> 
   const double v = found->number;
   const bool whole = found->kind == JsonKind::number && std::floor(v) == v;
   if (!whole || v < static_cast<double>(lo) || v > static_cast<double>(hi)) {
-    document_.fault(*found, as_found(*found) + ": expected an integer from " + std::to_string(lo) +
-                                " to " + std::to_string(hi));
+    const std::string range =
+        lo == hi ? std::to_string(lo)
+                 : "an integer from " + std::to_string(lo) + " to " + std::to_string(hi);
+    document_.fault(*found, as_found(*found) + ": expected " + range);
     return lo;
   }
   return static_cast<std::int64_t>(v);
