@@ -31,6 +31,8 @@ struct ExtractOptions {
   Precision precision = Precision::f32;  ///< of chunk positions
   Vec3 origin{};                         ///< subtracted from every position before rounding
   bool measure = false;                  ///< also sum area and volume (costs about as much again)
+  /// Samples lo..hi only, in the volume's own index space; must lie inside a dense volume.
+  std::optional<IndexBox> region;
 };
 
 /// Extracts the surface of an array in memory.
