@@ -22,8 +22,8 @@ class OutputFile {
   };
 
   /// Opens the partial file (or the device). "-" is stdout. A symlink is followed: its target is
-  /// replaced. Errors: output (exists without force, folder missing or read-only, binary to a
-  /// terminal).
+  /// replaced, and keeps its permissions. Errors: output (exists without force, folder missing or
+  /// read-only, binary to a terminal).
   OutputFile(const std::string& path, Options options);
   /// Without commit(): the partial file is removed.
   ~OutputFile();
@@ -33,6 +33,8 @@ class OutputFile {
   [[nodiscard]] bool seekable() const;
   [[nodiscard]] const std::string& place() const;
   [[nodiscard]] std::uint64_t size() const;  ///< bytes appended so far
+  /// Where its temporary files belong: its own folder, $TMPDIR or /tmp for what is no file.
+  [[nodiscard]] std::string scratch_folder() const;
 
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text);
@@ -40,8 +42,14 @@ class OutputFile {
   void append_array(std::span<const T> values) {
     append(std::as_bytes(values));
   }
-  /// Overwrites bytes that are already there, or writes past the end. Precondition: seekable().
+  /// Overwrites bytes that are already there, or writes past the end, which does not move it.
+  /// Precondition: seekable().
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// Moves the end on by bytes that write_at() fills. Precondition: seekable().
+  void skip(std::uint64_t n_bytes);
+  /// Moves the bytes from `offset` to the end up by `n_bytes`; what lies between is to be
+  /// overwritten. Precondition: seekable(). Cost: reads and writes all of them once.
+  void shift(std::uint64_t offset, std::uint64_t n_bytes);
 
   /// Flushes, closes, renames.
   void commit();
@@ -65,6 +73,11 @@ class SpoolFile {
   [[nodiscard]] std::uint64_t size() const;
   /// All that was appended, mapped; valid until the next append.
   std::span<const std::byte> map();
+  /// Fills `bytes` with what was appended at `offset` (reading takes no address space).
+  /// Precondition: offset + bytes.size() <= size().
+  void read(std::uint64_t offset, std::span<std::byte> bytes);
+  /// Appends all of it to `out`, block by block.
+  void copy_to(OutputFile& out);
 
  private:
   struct State;

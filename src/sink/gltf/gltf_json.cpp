@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "sink/gltf/gltf_json.hpp"
+
+#if MC_WITH_GLTF
+
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+// tinygltf builds and serialises the model around an empty buffer; length and place of the real
+// one, names (which may be no UTF-8) and the facts in their order are set in its JSON.
+
+namespace mc::sink {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Text of a file's own making, with what is no UTF-8 replaced.
+std::string utf8(const std::string& text) {
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace))
+      .get<std::string>();
+}
+
+bool is_drawn(const GltfObject& object) { return object.n_indices > 0; }
+
+tinygltf::BufferView view(std::uint64_t at, std::uint64_t n_bytes, std::uint64_t stride,
+                          int target) {
+  tinygltf::BufferView made;
+  made.buffer = 0;
+  made.byteOffset = static_cast<std::size_t>(at);
+  made.byteLength = static_cast<std::size_t>(n_bytes);
+  made.byteStride = static_cast<std::size_t>(stride);
+  made.target = target;
+  return made;
+}
+
+tinygltf::Accessor accessor(int of_view, std::size_t at, std::uint64_t count, int component,
+                            int type) {
+  tinygltf::Accessor made;
+  made.bufferView = of_view;
+  made.byteOffset = at;
+  made.count = static_cast<std::size_t>(count);
+  made.componentType = component;
+  made.type = type;
+  return made;
+}
+
+/// Appends views, accessors and mesh of one object; returns the mesh.
+int add_mesh(tinygltf::Model& model, const GltfObject& object) {
+  const int views = static_cast<int>(model.bufferViews.size());
+  const int accessors = static_cast<int>(model.accessors.size());
+  model.bufferViews.push_back(view(object.vertices_at, object.n_vertices * object.vertex_bytes(),
+                                   object.vertex_bytes(), TINYGLTF_TARGET_ARRAY_BUFFER));
+  model.bufferViews.push_back(view(object.indices_at, object.n_indices * object.index_bytes(), 0,
+                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER));
+  tinygltf::Accessor positions =
+      accessor(views, 0, object.n_vertices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+  positions.minValues.assign(object.lo.begin(), object.lo.end());
+  positions.maxValues.assign(object.hi.begin(), object.hi.end());
+  model.accessors.push_back(positions);
+  model.accessors.push_back(accessor(views + 1, 0, object.n_indices,
+                                     object.has_short_indices()
+                                         ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+                                         : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                     TINYGLTF_TYPE_SCALAR));
+  tinygltf::Primitive primitive;
+  primitive.attributes["POSITION"] = accessors;
+  primitive.indices = accessors + 1;
+  if (object.has_normals) {
+    primitive.attributes["NORMAL"] = accessors + 2;
+    model.accessors.push_back(
+        accessor(views, 12, object.n_vertices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3));
+  }
+  primitive.material = 0;
+  primitive.mode = TINYGLTF_MODE_TRIANGLES;
+  tinygltf::Mesh mesh;
+  mesh.primitives.push_back(primitive);
+  model.meshes.push_back(mesh);
+  return static_cast<int>(model.meshes.size()) - 1;
+}
+
+tinygltf::Material plain_material() {
+  tinygltf::Material made;
+  made.name = "plain";
+  made.pbrMetallicRoughness.baseColorFactor = {0.6, 0.6, 0.6, 1.0};
+  made.pbrMetallicRoughness.metallicFactor = 0.0;
+  made.pbrMetallicRoughness.roughnessFactor = 0.75;
+  return made;
+}
+
+tinygltf::Model model_of(std::span<const GltfObject> objects) {
+  tinygltf::Model model;
+  model.asset.version = "2.0";
+  model.asset.generator = "mc";
+  model.defaultScene = 0;
+  tinygltf::Scene scene;
+  for (const GltfObject& object : objects) {
+    tinygltf::Node node;
+    node.name = utf8(object.name);
+    if (object.origin != Vec3{}) {
+      node.translation.assign(object.origin.begin(), object.origin.end());
+    }
+    if (is_drawn(object)) {
+      node.mesh = add_mesh(model, object);
+      model.meshes.back().name = node.name;
+    }
+    scene.nodes.push_back(static_cast<int>(model.nodes.size()));
+    model.nodes.push_back(node);
+  }
+  model.scenes.push_back(scene);
+  if (!model.meshes.empty()) {
+    model.materials.push_back(plain_material());
+    model.buffers.emplace_back();
+  }
+  return model;
+}
+
+}  // namespace
+
+std::string gltf_json(std::span<const GltfObject> objects, const GltfBuffer& buffer,
+                      std::span<const std::pair<std::string, std::string>> provenance) {
+  const GltfObject nothing;  // a scene must have a node
+  const tinygltf::Model model =
+      model_of(objects.empty() ? std::span<const GltfObject>(&nothing, 1) : objects);
+  std::stringstream text;
+  tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, false, false);
+  Json json = Json::parse(text);
+  if (!model.buffers.empty()) {
+    Json& made = json["buffers"][0];
+    made = Json{{"byteLength", buffer.n_bytes}};
+    if (!buffer.uri.empty()) {
+      made["uri"] = buffer.uri;
+    }
+  }
+  for (const auto& [key, value] : provenance) {
+    json["asset"]["extras"][utf8(key)] = utf8(value);
+  }
+  return buffer.uri.empty() ? json.dump() : json.dump(2) + "\n";
+}
+
+}  // namespace mc::sink
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mc/mesh.hpp"
+
+// The JSON half of glTF: which bytes of the buffer are what.
+
+namespace mc::sink {
+
+/// One object of the buffer: interleaved positions and normals, then its indices.
+struct GltfObject {
+  std::string name;
+  Vec3 origin{};
+  bool has_normals = false;
+  std::uint64_t n_vertices = 0, n_indices = 0;
+  std::uint64_t vertices_at = 0, indices_at = 0;  ///< bytes from the buffer's start
+  std::array<float, 3> lo{}, hi{};                ///< of the positions as stored
+
+  [[nodiscard]] std::uint64_t vertex_bytes() const { return has_normals ? 24 : 12; }
+  /// The greatest index a type holds is reserved.
+  [[nodiscard]] bool has_short_indices() const { return n_vertices <= 0xFFFF; }
+  [[nodiscard]] std::uint64_t index_bytes() const { return has_short_indices() ? 2 : 4; }
+};
+
+/// The buffer: its length, and the file that holds it (percent-encoded; empty for a GLB).
+struct GltfBuffer {
+  std::uint64_t n_bytes = 0;
+  std::string uri = {};
+};
+
+/// The whole JSON text, one line for a GLB, indented otherwise. An object without triangles is a
+/// node without mesh; without any, there is no buffer.
+std::string gltf_json(std::span<const GltfObject> objects, const GltfBuffer& buffer,
+                      std::span<const std::pair<std::string, std::string>> provenance);
+
+}  // namespace mc::sink
