@@ -23,6 +23,7 @@ struct ExtractOptions {
   Inside inside =
       Inside::above;  ///< above: value >= iso; below: !(value < iso) is outside. NaN is never solid
   Border border = Border::open;
+  std::optional<IndexBox> region;  ///< only these samples, as if there were no others; inside the box
   Normals normals = Normals::gradient;
   Interpolation interpolation = Interpolation::linear;
   double cutoff = 0;  ///< edges whose values differ by less take the midpoint; >= 0
@@ -31,8 +32,6 @@ struct ExtractOptions {
   Precision precision = Precision::f32;  ///< of chunk positions
   Vec3 origin{};                         ///< subtracted from every position before rounding
   bool measure = false;                  ///< also sum area and volume (costs about as much again)
-  /// Samples lo..hi only, in the volume's own index space; must lie inside a dense volume.
-  std::optional<IndexBox> region;
 };
 
 /// Extracts the surface of an array in memory.

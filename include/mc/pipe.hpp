@@ -15,11 +15,11 @@ namespace mc {
 
 struct RunOptions {
   ExtractOptions extract;
+  std::optional<Affine> to_world;  ///< instead of the volume's own
   MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
   std::uint64_t memory_bytes = 1ULL << 30;  ///< the run's own buffers stay within it
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
   bool count_first = false;  ///< one more read of the scalars, then exact counts for the sink
-  std::optional<Affine> to_world;  ///< in place of the volume's own, for another frame or unit
 };
 
 /// What a run of these options over this volume will hold at most, in bytes, without mapped input.
