@@ -37,9 +37,9 @@ struct IsoChoice {
 
 /// Where the mesh should lie; unset: as the source says (DESIGN section 5).
 struct PlaceChoice {
-  std::optional<Frame> frame;  ///< ras or lps
-  std::optional<Up> up;
-  std::optional<Units> units;  ///< mm or m
+  std::optional<Frame> frame{};  ///< ras or lps
+  std::optional<Up> up{};
+  std::optional<Units> units{};  ///< mm or m
 };
 
 /// One volume that becomes one mesh.
