@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "extract/threshold.hpp"
+#include "mc/field.hpp"
+
+// Where the blocks of a sparse volume are. A block is a cube of 8x8x8 samples; it is a leaf, or
+// constant (part of a tile, or background). Nodes of 8x8x8 blocks hold one bit a block, so that the
+// blocks which can hold a surface are found by word arithmetic too.
+
+namespace mc::extraction {
+
+/// 512 bits for 8x8x8 things: word z, bit y*8 + x.
+using Mask512 = std::array<std::uint64_t, 8>;
+
+/// The block (or the node of blocks) that holds an index: division by 8, rounding down.
+inline Index3 block_of(const Index3& p) { return {p[0] >> 3, p[1] >> 3, p[2] >> 3}; }
+
+/// Ordered by (z, y, x).
+inline bool before(const Index3& a, const Index3& b) {
+  if (a[2] != b[2]) return a[2] < b[2];
+  if (a[1] != b[1]) return a[1] < b[1];
+  return a[0] < b[0];
+}
+
+/// What a block is.
+struct Block {
+  static constexpr std::uint32_t kConstant = 0xFFFFFFFF;
+  std::uint32_t leaf = kConstant;  ///< number of the leaf
+  Scalar value;                    ///< of a constant block
+  bool above = false;              ///< of a constant block
+};
+
+class BlockIndex {
+ public:
+  /// Cost: O(leaves + tiles), where a tile larger than a node counts by its surface.
+  BlockIndex(const LeafReader& reader, const Threshold& threshold);
+
+  [[nodiscard]] Block at(const Index3& block) const;
+
+  /// Every block whose own samples or those of its seven upper neighbours can differ: leaves and
+  /// their lower neighbours, and where constant blocks of either side meet. Ordered by (z, y, x).
+  [[nodiscard]] std::vector<Index3> candidates() const;
+
+  [[nodiscard]] std::uint64_t bytes() const;
+
+ private:
+  struct Node {
+    Index3 key{};             ///< block index / 8
+    Mask512 leaf{};           ///< blocks that are leaves
+    Mask512 tile{};           ///< blocks that are part of a tile
+    Mask512 odd{};            ///< constant blocks on the other side than the background
+    std::uint32_t first = 0;  ///< in entries_: leaf numbers and tile numbers, by rank
+  };
+  struct Constant {
+    Scalar value;
+    bool above;
+  };
+  struct BigTile {
+    Index3 origin;  ///< in nodes
+    std::int32_t size;
+    std::uint32_t constant;
+  };
+
+  std::uint32_t node_at(const Index3& key);
+  [[nodiscard]] const Node* find(const Index3& key) const;
+  [[nodiscard]] std::optional<std::uint32_t> big_tile_at(const Index3& key) const;
+  void add_tile(const Tile& tile, std::uint32_t constant);
+  void fill_entries(const LeafReader& reader);
+  void grow();
+  struct Sides {
+    Mask512 leaf, odd, even;
+  };
+  [[nodiscard]] Sides sides_of(const Index3& key) const;
+  [[nodiscard]] std::vector<Index3> candidate_nodes() const;
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> slots_;  ///< open addressing: node number + 1, 0 where free
+  std::vector<std::uint32_t> entries_;
+  std::vector<Constant> constants_;      ///< of tiles
+  std::vector<BigTile> big_tiles_;       ///< ordered by origin
+  std::vector<std::int32_t> big_sizes_;  ///< each size that occurs
+  Constant background_{};
+};
+
+}  // namespace mc::extraction

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "extract/row_kernels.hpp"
+
+// Compiles row_kernels-inl.hpp for every target that Highway offers and picks one at run time.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_WANT_AVX3_DL 1
+#define HWY_TARGET_INCLUDE "extract/row_kernels_simd.cpp"
+#include <hwy/foreach_target.h>  // must come before highway.h
+
+#include "extract/row_kernels-inl.hpp"
+
+#if HWY_ONCE
+#include <array>
+#include <utility>
+
+#include "extract/simd_target.hpp"
+
+namespace mc::extraction {
+
+namespace {
+HWY_EXPORT(classify_rows);
+HWY_EXPORT(number_plane);
+HWY_EXPORT(number_between);
+HWY_EXPORT(emit_triangles);
+HWY_EXPORT(count_triangles);
+
+constexpr std::array<std::pair<std::string_view, std::int64_t>, 5> kTargets{
+    {{"avx3_dl", HWY_AVX3_DL},
+     {"avx3", HWY_AVX3},
+     {"avx2", HWY_AVX2},
+     {"sse4", HWY_SSE4},
+     {"ssse3", HWY_SSSE3}}};
+
+bool offered(std::int64_t target) { return (hwy::SupportedTargets() & HWY_TARGETS & target) != 0; }
+
+// What runs; the process's one choice, like Highway's own, which does not tell.
+std::string_view forced;
+}  // namespace
+
+void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
+                   std::size_t words_per_row) {
+  HWY_DYNAMIC_DISPATCH(classify_rows)(threshold, rows, words, words_per_row);
+}
+
+std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, std::uint32_t* i_start,
+                           std::uint32_t* j_start) {
+  return HWY_DYNAMIC_DISPATCH(number_plane)(plane, next, i_start, j_start);
+}
+
+std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
+                             std::uint32_t* k_start) {
+  return HWY_DYNAMIC_DISPATCH(number_between)(lower, upper, next, k_start);
+}
+
+std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
+                           std::uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(emit_triangles)(layer, j0, j1, flip, out);
+}
+
+std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
+  return HWY_DYNAMIC_DISPATCH(count_triangles)(lower, upper);
+}
+
+bool set_simd_target(std::string_view name) {
+  if (name == "scalar") {
+    hwy::GetChosenTarget().Update(0);  // leaves only the fallback, our own plain rows
+    forced = "scalar";
+    return true;
+  }
+  for (const auto& [known, target] : kTargets) {
+    if (known == name && offered(target)) {
+      hwy::GetChosenTarget().Update(target);
+      forced = known;
+      return true;
+    }
+  }
+  return false;
+}
+
+void reset_simd_target() {
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  forced = {};
+}
+
+std::string simd_target_name() {
+  return std::string(forced.empty() ? simd_targets().front() : forced);
+}
+
+std::vector<std::string> simd_targets() {
+  std::vector<std::string> names;
+  for (const auto& [known, target] : kTargets) {
+    if (offered(target)) {
+      names.emplace_back(known);
+    }
+  }
+  names.emplace_back("scalar");
+  return names;
+}
+
+}  // namespace mc::extraction
+#endif  // HWY_ONCE

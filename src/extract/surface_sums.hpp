@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "extract/edge_vertex.hpp"
+#include "mc/mesh.hpp"
+
+// Figures of the surface that are gathered while it is made.
+
+namespace mc::extraction {
+
+/// Area and volume of the surface in one layer of cells. Summed a layer at a time, so that the
+/// total does not depend on how layers were dealt to threads.
+struct LayerSum {
+  double area = 0;
+  double volume = 0;
+};
+
+/// What one task found.
+struct TaskTotals {
+  std::uint64_t n_vertices = 0;
+  std::uint64_t n_triangles = 0;
+  std::uint64_t n_boundary_edges = 0;
+  Bounds bounds;
+  std::vector<LayerSum> layers;  ///< only when measured
+
+  void clear() {
+    layers.clear();
+    *this = {0, 0, 0, {}, std::move(layers)};
+  }
+};
+
+/// The middle of a box of samples, in lattice units.
+inline Vec3 middle_of(const IndexBox& box) {
+  Vec3 middle;
+  for (std::size_t a = 0; a < 3; ++a) {
+    middle[a] = 0.5 * (static_cast<double>(box.lo[a]) + static_cast<double>(box.hi[a]));
+  }
+  return middle;
+}
+
+/// Adds one cell's triangles, their cones taken from `apex`.
+template <class T, class Sampler>
+void add_cell(const EdgeVertices<T, Sampler>& vertices, const Index3& cell, const CaseRow& row,
+              const Vec3& apex, LayerSum& sum) {
+  for (std::size_t t = 0; t < row.n_triangles; ++t) {
+    std::array<Vec3, 3> p;
+    const Vec3 a = vertices.area_vector(cell, row, t, p.data());
+    sum.area += std::sqrt((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
+    sum.volume +=
+        (((p[0][0] - apex[0]) * a[0] + (p[0][1] - apex[1]) * a[1]) + (p[0][2] - apex[2]) * a[2]) /
+        3;
+  }
+}
+
+}  // namespace mc::extraction
