@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "mc/base.hpp"
+#include "mc/field.hpp"
+
+// Procedural fields: a graph of nodes, compiled once and then sampled plane by plane. mc-volume(5)
+// gives every node's formula. Values are float32, made by IEEE-exact operations in a fixed order,
+// so that the same graph gives the same bits on every machine.
+
+namespace mc {
+
+/// Which side of iso is solid, and so what union, intersection, difference, complement and the
+/// solids mean: density, values above; sdf, values below.
+enum class Convention : std::uint8_t { density, sdf };
+
+/// The coordinates that a generator looks at, in this order.
+enum class Dims : std::uint8_t { xyz, xy, xz, yz };
+
+/// What a node does. In the comments: its inputs; then its numbers, by place in Node::numbers.
+enum class NodeType : std::uint8_t {
+  constant,        ///< -; value
+  x,               ///< -; -
+  y,               ///< -; -
+  z,               ///< -; -
+  add,             ///< one or more; -
+  mul,             ///< one or more; -
+  min,             ///< one or more; -
+  max,             ///< one or more; -
+  sub,             ///< a, b; -
+  div,             ///< a, b; -
+  pow,             ///< a, b; -
+  mod,             ///< a, b; -
+  abs,             ///< source; -
+  neg,             ///< source; -
+  sqrt,            ///< source; -
+  floor,           ///< source; -
+  fract,           ///< source; -
+  sin,             ///< source; -
+  clamp,           ///< source; lowest, highest
+  remap,           ///< source; from, from, to, to
+  smoothstep,      ///< source; lower edge, upper edge
+  mix,             ///< a, b, t; -
+  perlin,          ///< -; frequency. Also seed, dims
+  simplex,         ///< -; frequency. Also seed, dims
+  unity_perlin2d,  ///< - (then dims), or its two coordinates; frequency
+  fbm,             ///< source; lacunarity, gain, weighted. Also octaves, dims
+  warp,            ///< source, warp; amplitude
+  sphere,          ///< -; centre x, y, z, radius
+  box,             ///< -; centre x, y, z, full sizes x, y, z
+  plane,           ///< -; unit normal x, y, z, offset along it
+  torus,           ///< -; centre x, y, z, ring's radius, tube's radius. Also axis
+  unite,           ///< one or more; smooth radius
+  intersect,       ///< one or more; smooth radius
+  difference,      ///< a, b; smooth radius
+  complement,      ///< source; -
+};
+
+/// Names a node of one Graph.
+enum class NodeId : std::uint32_t {};
+
+struct Node {
+  NodeType type = NodeType::constant;
+  std::vector<NodeId> inputs;      ///< in the order that NodeType names them
+  std::array<float, 6> numbers{};  ///< finite; places as NodeType says
+  std::uint32_t seed = 0;          ///< generators
+  std::uint32_t octaves = 1;       ///< fbm: 1 to 32
+  std::uint8_t axis = 1;           ///< torus: 0, 1, 2: the axis around which the ring runs
+  std::optional<Dims> dims;        ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
+};
+
+struct GraphSettings {
+  std::uint32_t seed = 0;
+  Convention convention = Convention::density;
+  float iso = 0;  ///< what union, difference, complement and the solids refer to; finite
+};
+
+namespace graph {
+struct Program;
+}
+
+/// A compiled graph. Threads: immutable; sample() may be called from several threads at once.
+class GraphField {
+ public:
+  explicit GraphField(std::unique_ptr<const graph::Program> program);
+  ~GraphField();
+  GraphField(GraphField&& other) noexcept;
+  GraphField& operator=(GraphField&& other) noexcept;
+
+  /// Fills `out` with the values at lattice indices first + (0..dims-1), whose world coordinates
+  /// are origin + index * spacing, computed in double and rounded to float.
+  /// Shapes   out: any strides, rows contiguous.
+  /// Cost     O(samples * nodes); what does not depend on y is computed once a plane.
+  void sample(const Vec3& origin, const Vec3& spacing, const Index3& first, View3<float> out) const;
+
+ private:
+  std::unique_ptr<const graph::Program> program_;
+};
+
+/// A graph under construction. A node's inputs must be there before it, so no cycle can arise.
+class Graph {
+ public:
+  static constexpr std::size_t kMaxNodes = 10000;
+  static constexpr std::uint32_t kMaxDepth = 256;         ///< nodes on one path
+  static constexpr std::size_t kMaxInstructions = 16384;  ///< of a compiled graph
+
+  explicit Graph(const GraphSettings& settings) : settings_(settings) {}
+
+  /// Errors   usage: an unknown or missing input, octaves or axis out of range, a number that is
+  ///          not finite, too many or too deeply nested nodes.
+  NodeId add(Node node);
+
+  [[nodiscard]] const GraphSettings& settings() const { return settings_; }
+  [[nodiscard]] const Node& node(NodeId id) const;
+  [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  /// Nodes on the longest path from `id` down to a leaf, itself included.
+  [[nodiscard]] std::uint32_t depth(NodeId id) const;
+
+  /// Compiles the field whose value is `root`. Shared nodes are evaluated once.
+  /// Errors   usage: fractals and warps of each other that expand past kMaxInstructions.
+  [[nodiscard]] GraphField compile(NodeId root) const;
+
+ private:
+  GraphSettings settings_;
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> depths_;
+};
+
+}  // namespace mc

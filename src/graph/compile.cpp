@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: MIT
+#include "graph/compile.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "graph/hash.hpp"
+
+// From a graph to straight-line code. A node is emitted once for each domain (coordinates, seed
+// salt, dims) it is asked for in: fbm and warp ask for their source in domains of their own, all
+// other nodes pass theirs on. Then dead instructions go, those that do not depend on y move to the
+// front (the engine runs them once a plane), and values are given registers, reused after the last
+// use.
+
+namespace mc::graph {
+
+namespace {
+
+using Value = std::uint32_t;  // the instruction that makes it
+
+/// Where a node is evaluated.
+struct Domain {
+  std::array<Value, 3> at{};  // the coordinates x, y, z
+  std::uint32_t salt = 0;     // changes the seeds below it; 0 leaves them
+  std::optional<Dims> dims;   // of generators that do not say
+
+  bool operator<(const Domain& other) const {
+    return std::tie(at, salt, dims) < std::tie(other.at, other.salt, other.dims);
+  }
+};
+
+constexpr std::array<std::array<std::uint8_t, 3>, 4> kDimsAxes{
+    {{0, 1, 2}, {0, 1, 1}, {0, 2, 2}, {1, 2, 2}}};
+
+class Emitter {
+ public:
+  explicit Emitter(const Graph& graph) : graph_(graph) {
+    world_.at = {push(Op::x, {}), push(Op::y, {}), push(Op::z, {})};
+  }
+
+  Value emit_root(NodeId root) { return emit(root, world_); }
+  std::vector<Instruction> take() { return std::move(code_); }
+
+ private:
+  Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
+             std::uint32_t seed = 0) {
+    if (code_.size() >= Graph::kMaxInstructions) {
+      refuse();
+    }
+    Instruction instruction{.op = op,
+                            .out = static_cast<Value>(code_.size()),
+                            .n_in = static_cast<std::uint8_t>(inputs.size()),
+                            .seed = seed,
+                            .p = p};
+    std::copy(inputs.begin(), inputs.end(), instruction.in.begin());
+    code_.push_back(instruction);
+    return instruction.out;
+  }
+
+  [[noreturn]] static void refuse() {
+    throw Error(ErrorKind::usage, "",
+                "fractals and warps expand to more than " +
+                    std::to_string(Graph::kMaxInstructions) + " operations a sample",
+                "nest fewer of them, or lower the octaves");
+  }
+
+  Value emit(NodeId id, const Domain& domain) {
+    if (done_.size() > 4 * Graph::kMaxInstructions) {
+      refuse();  // nodes that pass their input on cost no instruction, but memory here
+    }
+    const auto key = std::pair(id, domain);
+    if (const auto known = done_.find(key); known != done_.end()) {
+      return known->second;
+    }
+    const Value value = emit_new(graph_.node(id), domain);
+    done_.emplace(key, value);
+    return value;
+  }
+
+  Value emit_new(const Node& node, const Domain& domain);
+  Value emit_arithmetic(const Node& node, const Domain& domain);
+  Value emit_generator(const Node& node, const Domain& domain);
+  Value emit_fbm(const Node& node, const Domain& domain);
+  Value emit_weighted_fbm(const Node& node, const Domain& domain);
+  Value emit_warp(const Node& node, const Domain& domain);
+  Value emit_solid(const Node& node, const Domain& domain);
+  Value emit_combination(const Node& node, const Domain& domain);
+
+  Value unary(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
+    return push(op, {emit(node.inputs[0], domain)}, p);
+  }
+  Value binary(Op op, const Node& node, const Domain& domain) {
+    const Value a = emit(node.inputs[0], domain);
+    return push(op, {a, emit(node.inputs[1], domain)});
+  }
+  /// Left to right.
+  Value fold(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
+    Value sum = emit(node.inputs[0], domain);
+    for (std::size_t n = 1; n < node.inputs.size(); ++n) {
+      sum = push(op, {sum, emit(node.inputs[n], domain)}, p);
+    }
+    return sum;
+  }
+  Domain octave_of(const Node& node, const Domain& domain, std::uint32_t octave,
+                   const Domain& previous);
+
+  const Graph& graph_;
+  std::vector<Instruction> code_;
+  std::map<std::pair<NodeId, Domain>, Value> done_;
+  Domain world_;
+};
+
+Value Emitter::emit_new(const Node& node, const Domain& domain) {
+  switch (node.type) {
+    case NodeType::constant:
+      return push(Op::fill, {}, node.numbers);
+    case NodeType::x:
+      return domain.at[0];
+    case NodeType::y:
+      return domain.at[1];
+    case NodeType::z:
+      return domain.at[2];
+    case NodeType::perlin:
+    case NodeType::simplex:
+    case NodeType::unity_perlin2d:
+      return emit_generator(node, domain);
+    case NodeType::fbm:
+      return node.numbers[2] == 0 ? emit_fbm(node, domain) : emit_weighted_fbm(node, domain);
+    case NodeType::warp:
+      return emit_warp(node, domain);
+    case NodeType::sphere:
+    case NodeType::box:
+    case NodeType::plane:
+    case NodeType::torus:
+      return emit_solid(node, domain);
+    case NodeType::unite:
+    case NodeType::intersect:
+    case NodeType::difference:
+    case NodeType::complement:
+      return emit_combination(node, domain);
+    default:
+      return emit_arithmetic(node, domain);
+  }
+}
+
+Value Emitter::emit_arithmetic(const Node& node, const Domain& domain) {
+  const auto& p = node.numbers;
+  switch (node.type) {
+    case NodeType::add:
+      return fold(Op::add, node, domain);
+    case NodeType::mul:
+      return fold(Op::mul, node, domain);
+    case NodeType::min:
+      return fold(Op::min, node, domain);
+    case NodeType::max:
+      return fold(Op::max, node, domain);
+    case NodeType::sub:
+      return binary(Op::sub, node, domain);
+    case NodeType::div:
+      return binary(Op::div, node, domain);
+    case NodeType::pow:
+      return binary(Op::pow, node, domain);
+    case NodeType::mod:
+      return binary(Op::mod, node, domain);
+    case NodeType::abs:
+      return unary(Op::abs, node, domain);
+    case NodeType::neg:
+      return unary(Op::neg, node, domain);
+    case NodeType::sqrt:
+      return unary(Op::sqrt, node, domain);
+    case NodeType::floor:
+      return unary(Op::floor, node, domain);
+    case NodeType::fract:
+      return unary(Op::fract, node, domain);
+    case NodeType::sin:
+      return unary(Op::sin, node, domain);
+    case NodeType::clamp:
+      return unary(Op::clamp, node, domain, p);
+    case NodeType::remap:
+      return unary(Op::remap, node, domain, {p[0], (p[3] - p[2]) / (p[1] - p[0]), p[2]});
+    case NodeType::smoothstep:
+      return unary(Op::smoothstep, node, domain, {p[0], p[1] - p[0]});
+    default: {  // mix
+      const Value a = emit(node.inputs[0], domain);
+      const Value b = emit(node.inputs[1], domain);
+      return push(Op::mix, {a, b, emit(node.inputs[2], domain)});
+    }
+  }
+}
+
+Value Emitter::emit_generator(const Node& node, const Domain& domain) {
+  if (node.type == NodeType::unity_perlin2d && !node.inputs.empty()) {
+    const Value a = emit(node.inputs[0], domain);
+    return push(Op::unity2, {a, emit(node.inputs[1], domain)}, {1.0F});
+  }
+  const bool unity = node.type == NodeType::unity_perlin2d;
+  Dims dims = node.dims.value_or(domain.dims.value_or(unity ? Dims::xz : Dims::xyz));
+  if (unity && dims == Dims::xyz) {
+    dims = Dims::xz;
+  }
+  const auto& axes = kDimsAxes[static_cast<std::size_t>(dims)];
+  const std::array<Value, 3> at{domain.at[axes[0]], domain.at[axes[1]], domain.at[axes[2]]};
+  if (unity) {
+    return push(Op::unity2, {at[0], at[1]}, node.numbers);
+  }
+  std::uint32_t seed = combine(graph_.settings().seed, node.seed);
+  if (domain.salt != 0) {
+    seed = combine(seed, domain.salt);
+  }
+  const bool perlin = node.type == NodeType::perlin;
+  if (dims == Dims::xyz) {
+    return push(perlin ? Op::perlin3 : Op::simplex3, {at[0], at[1], at[2]}, node.numbers, seed);
+  }
+  return push(perlin ? Op::perlin2 : Op::simplex2, {at[0], at[1]}, node.numbers, seed);
+}
+
+Domain Emitter::octave_of(const Node& node, const Domain& domain, std::uint32_t octave,
+                          const Domain& previous) {
+  Domain next = previous;
+  if (octave > 0) {
+    for (Value& coordinate : next.at) {
+      coordinate = push(Op::scale, {coordinate}, {node.numbers[0]});
+    }
+    next.salt = combine(domain.salt, octave);
+  }
+  if (node.dims) {
+    next.dims = node.dims;
+  }
+  return next;
+}
+
+/// 1 + gain + gain^2 + ..., in float, first to last.
+float total_amplitude(const Node& node) {
+  float sum = 0;
+  float amplitude = 1;
+  for (std::uint32_t octave = 0; octave < node.octaves; ++octave) {
+    sum = sum + amplitude;
+    amplitude = amplitude * node.numbers[1];
+  }
+  return sum;
+}
+
+Value Emitter::emit_fbm(const Node& node, const Domain& domain) {
+  const float total = total_amplitude(node);
+  float amplitude = 1;
+  Domain at = domain;
+  Value sum = 0;
+  for (std::uint32_t octave = 0; octave < node.octaves; ++octave) {
+    at = octave_of(node, domain, octave, at);
+    const Value noise = emit(node.inputs[0], at);
+    const float weight = amplitude / total;
+    sum = octave == 0 ? push(Op::scale, {noise}, {weight})
+                      : push(Op::accumulate, {sum, noise}, {weight});
+    amplitude = amplitude * node.numbers[1];
+  }
+  return sum;
+}
+
+Value Emitter::emit_weighted_fbm(const Node& node, const Domain& domain) {
+  Domain at = domain;
+  Value amplitude = push(Op::fill, {}, {1.0F});
+  Value sum = 0;
+  for (std::uint32_t octave = 0; octave < node.octaves; ++octave) {
+    at = octave_of(node, domain, octave, at);
+    const Value noise = emit(node.inputs[0], at);
+    sum = octave == 0 ? noise : push(Op::multiply_add, {sum, noise, amplitude});
+    amplitude = push(Op::weigh, {amplitude, noise}, {node.numbers[1], node.numbers[2]});
+  }
+  return push(Op::scale, {sum}, {1.0F / total_amplitude(node)});
+}
+
+Value Emitter::emit_warp(const Node& node, const Domain& domain) {
+  Domain moved = domain;
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    Domain salted = domain;
+    salted.salt = combine(domain.salt, 0x100U + axis);
+    const Value shift = emit(node.inputs[1], salted);
+    moved.at[axis] = push(Op::accumulate, {domain.at[axis], shift}, {node.numbers[0]});
+  }
+  return emit(node.inputs[0], moved);
+}
+
+Value Emitter::emit_solid(const Node& node, const Domain& domain) {
+  Op op = Op::sphere;
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::array<float, 6> p = node.numbers;
+  if (node.type == NodeType::box) {
+    op = Op::box;
+  } else if (node.type == NodeType::plane) {
+    op = Op::plane;
+  } else if (node.type == NodeType::torus) {
+    op = Op::torus;
+    std::swap(order[1], order[node.axis]);
+    std::swap(p[1], p[node.axis]);
+  }
+  const Value inside = push(op, {domain.at[order[0]], domain.at[order[1]], domain.at[order[2]]}, p);
+  const GraphSettings& settings = graph_.settings();
+  return push(settings.convention == Convention::density ? Op::offset : Op::mirror, {inside},
+              {settings.iso});
+}
+
+Value Emitter::emit_combination(const Node& node, const Domain& domain) {
+  const GraphSettings& settings = graph_.settings();
+  const std::array<float, 6> twice_iso{2.0F * settings.iso};
+  if (node.type == NodeType::complement) {
+    return unary(Op::mirror, node, domain, twice_iso);
+  }
+  const bool takes_max =
+      (node.type == NodeType::unite) == (settings.convention == Convention::density);
+  const bool smooth = node.numbers[0] > 0;
+  const Op largest = smooth ? Op::smooth_max : Op::max;
+  const Op op = takes_max ? largest : (smooth ? Op::smooth_min : Op::min);
+  if (node.type != NodeType::difference) {
+    return fold(op, node, domain, node.numbers);
+  }
+  const Value a = emit(node.inputs[0], domain);
+  const Value outside_b = push(Op::mirror, {emit(node.inputs[1], domain)}, twice_iso);
+  return push(op, {a, outside_b}, node.numbers);
+}
+
+/// Which values the result needs.
+std::vector<bool> needed(const std::vector<Instruction>& code, Value result) {
+  std::vector<bool> live(code.size(), false);
+  live[result] = true;
+  for (std::size_t n = code.size(); n-- > 0;) {
+    for (std::size_t i = 0; live[n] && i < code[n].n_in; ++i) {
+      live[code[n].in[i]] = true;
+    }
+  }
+  return live;
+}
+
+/// Which values change along y.
+std::vector<bool> varies_with_y(const std::vector<Instruction>& code) {
+  std::vector<bool> varies(code.size(), false);
+  for (std::size_t n = 0; n < code.size(); ++n) {
+    varies[n] = code[n].op == Op::y;
+    for (std::size_t i = 0; i < code[n].n_in; ++i) {
+      varies[n] = varies[n] || varies[code[n].in[i]];
+    }
+  }
+  return varies;
+}
+
+/// Gives values registers in the order of execution. A register is free again after its value's
+/// last use, but never within that instruction: rows of one instruction do not overlap.
+class RegisterFile {
+ public:
+  RegisterFile(const Program& program, Value result, std::size_t n_values)
+      : last_use_(n_values, 0), at_(n_values, 0) {
+    std::size_t time = 0;
+    for (const Instruction& instruction : program.once_a_plane) {
+      note_uses(instruction, ++time);
+    }
+    std::vector<bool> of_plane(n_values, false);
+    for (const Instruction& instruction : program.once_a_plane) {
+      of_plane[instruction.out] = true;
+    }
+    for (const Instruction& instruction : program.once_a_row) {
+      note_uses(instruction, ++time);
+      for (std::size_t i = 0; i < instruction.n_in; ++i) {
+        if (of_plane[instruction.in[i]]) {
+          last_use_[instruction.in[i]] = kForever;  // the next row wants it again
+        }
+      }
+    }
+    last_use_[result] = kForever;
+  }
+
+  void assign(std::vector<Instruction>& code) {
+    for (Instruction& instruction : code) {
+      ++time_;
+      const Value value = instruction.out;
+      at_[value] = take();
+      std::array<Value, 3> inputs = instruction.in;
+      for (std::size_t i = 0; i < instruction.n_in; ++i) {
+        instruction.in[i] = at_[inputs[i]];
+        const bool repeated =
+            std::find(inputs.begin(), inputs.begin() + i, inputs[i]) != inputs.begin() + i;
+        if (last_use_[inputs[i]] == time_ && !repeated) {
+          free_.push_back(at_[inputs[i]]);
+        }
+      }
+      instruction.out = at_[value];
+    }
+  }
+
+  [[nodiscard]] std::uint32_t count() const { return n_registers_; }
+  [[nodiscard]] std::uint32_t at(Value value) const { return at_[value]; }
+
+ private:
+  static constexpr std::size_t kForever = std::numeric_limits<std::size_t>::max();
+
+  void note_uses(const Instruction& instruction, std::size_t time) {
+    for (std::size_t i = 0; i < instruction.n_in; ++i) {
+      last_use_[instruction.in[i]] = time;
+    }
+  }
+  std::uint32_t take() {
+    if (free_.empty()) {
+      return n_registers_++;
+    }
+    const std::uint32_t reused = free_.back();
+    free_.pop_back();
+    return reused;
+  }
+
+  std::vector<std::size_t> last_use_;
+  std::vector<std::uint32_t> at_;
+  std::vector<std::uint32_t> free_;
+  std::uint32_t n_registers_ = 0;
+  std::size_t time_ = 0;
+};
+
+}  // namespace
+
+Program compile(const Graph& graph, NodeId root) {
+  Emitter emitter(graph);
+  const Value result = emitter.emit_root(root);
+  const std::vector<Instruction> code = emitter.take();
+  const std::vector<bool> live = needed(code, result);
+  const std::vector<bool> varies = varies_with_y(code);
+
+  Program program;
+  for (std::size_t n = 0; n < code.size(); ++n) {
+    if (live[n]) {
+      (varies[n] ? program.once_a_row : program.once_a_plane).push_back(code[n]);
+    }
+  }
+  RegisterFile registers(program, result, code.size());
+  registers.assign(program.once_a_plane);
+  registers.assign(program.once_a_row);
+  program.n_registers = registers.count();
+  program.result = registers.at(result);
+  return program;
+}
+
+}  // namespace mc::graph

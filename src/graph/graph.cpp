@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "mc/graph.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "graph/compile.hpp"
+#include "graph/program.hpp"
+
+// The graph under construction: what may be added, and how deep it is.
+
+namespace mc {
+
+namespace {
+
+struct Arity {
+  std::size_t least;
+  std::size_t most;
+};
+
+Arity arity_of(NodeType type) {
+  constexpr std::size_t kMany = Graph::kMaxNodes;
+  switch (type) {
+    case NodeType::constant:
+    case NodeType::x:
+    case NodeType::y:
+    case NodeType::z:
+    case NodeType::perlin:
+    case NodeType::simplex:
+    case NodeType::sphere:
+    case NodeType::box:
+    case NodeType::plane:
+    case NodeType::torus:
+      return {0, 0};
+    case NodeType::unity_perlin2d:
+      return {0, 2};
+    case NodeType::add:
+    case NodeType::mul:
+    case NodeType::min:
+    case NodeType::max:
+    case NodeType::unite:
+    case NodeType::intersect:
+      return {1, kMany};
+    case NodeType::sub:
+    case NodeType::div:
+    case NodeType::pow:
+    case NodeType::mod:
+    case NodeType::warp:
+    case NodeType::difference:
+      return {2, 2};
+    case NodeType::mix:
+      return {3, 3};
+    default:
+      return {1, 1};
+  }
+}
+
+[[noreturn]] void refuse(const std::string& fault) { throw Error(ErrorKind::usage, "", fault); }
+
+void check_node(const Node& node) {
+  const Arity arity = arity_of(node.type);
+  const std::size_t n = node.inputs.size();
+  const bool odd_pair = node.type == NodeType::unity_perlin2d && n == 1;
+  if (n < arity.least || n > arity.most || odd_pair) {
+    refuse("a node has " + std::to_string(n) + " inputs: expected another number of them");
+  }
+  if (node.octaves < 1 || node.octaves > 32) {
+    refuse("octaves is " + std::to_string(node.octaves) + ": expected 1 to 32");
+  }
+  if (node.axis > 2) {
+    refuse("axis is " + std::to_string(node.axis) + ": expected 0, 1 or 2");
+  }
+  if (!std::all_of(node.numbers.begin(), node.numbers.end(),
+                   [](float v) { return std::isfinite(v); })) {
+    refuse("a node's number is not finite");
+  }
+}
+
+}  // namespace
+
+NodeId Graph::add(Node node) {
+  check_node(node);
+  if (nodes_.size() >= kMaxNodes) {
+    refuse("more than " + std::to_string(kMaxNodes) + " nodes");
+  }
+  std::uint32_t deepest = 0;
+  for (const NodeId input : node.inputs) {
+    if (static_cast<std::size_t>(input) >= nodes_.size()) {
+      refuse("a node's input is not in the graph: expected one that was added before it");
+    }
+    deepest = std::max(deepest, depth(input));
+  }
+  if (deepest >= kMaxDepth) {
+    refuse("nodes nest deeper than " + std::to_string(kMaxDepth) + " levels");
+  }
+  nodes_.push_back(std::move(node));
+  depths_.push_back(deepest + 1);
+  return NodeId{static_cast<std::uint32_t>(nodes_.size() - 1)};
+}
+
+const Node& Graph::node(NodeId id) const {
+  assert(static_cast<std::size_t>(id) < nodes_.size());
+  return nodes_[static_cast<std::size_t>(id)];
+}
+
+std::uint32_t Graph::depth(NodeId id) const {
+  assert(static_cast<std::size_t>(id) < depths_.size());
+  return depths_[static_cast<std::size_t>(id)];
+}
+
+GraphField Graph::compile(NodeId root) const {
+  return GraphField(std::make_unique<const graph::Program>(graph::compile(*this, root)));
+}
+
+}  // namespace mc

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include <cassert>
+#include <cmath>
+
+#include "graph/float_math.hpp"
+#include "graph/rows.hpp"
+
+// The arithmetic nodes, a row at a time: plain loops that the compiler turns into vectors.
+
+namespace mc::graph {
+
+namespace {
+
+template <class F>
+void map1(Row a, std::size_t n, OutRow out, F f) {
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = f(a[i]);
+  }
+}
+
+template <class F>
+void map2(Row a, Row b, std::size_t n, OutRow out, F f) {
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = f(a[i], b[i]);
+  }
+}
+
+template <class F>
+void map3(Row a, Row b, Row c, std::size_t n, OutRow out, F f) {
+  for (std::size_t i = 0; i < n; ++i) {
+    out[i] = f(a[i], b[i], c[i]);
+  }
+}
+
+/// What a smooth minimum takes off: h^2 k / 4 with h = max(k - |a - b|, 0) / k.
+float blend(float a, float b, float k) noexcept {
+  const float h = greatest(k - std::abs(a - b), 0.0F) / k;
+  return ((h * h) * k) * 0.25F;
+}
+
+float smooth_step(float v, float edge, float width) noexcept {
+  const float t = clamped((v - edge) / width, 0.0F, 1.0F);
+  return (t * t) * (3.0F - 2.0F * t);
+}
+
+/// Fractal amplitudes: the next one falls where this octave was low.
+float weighed(float amplitude, float noise, float gain, float weight) noexcept {
+  const float level = clamped((noise + 1.0F) * 0.5F, 0.0F, 1.0F);
+  return amplitude * (gain * (1.0F + weight * (level - 1.0F)));
+}
+
+float modulo(float a, float b) noexcept { return a - b * exact_floor(a / b); }
+
+void one_input_row(const Instruction& instruction, Row a, std::size_t n, OutRow out) noexcept {
+  const auto& p = instruction.p;
+  switch (instruction.op) {
+    case Op::abs:
+      return map1(a, n, out, [](float u) { return std::abs(u); });
+    case Op::neg:
+      return map1(a, n, out, [](float u) { return -u; });
+    case Op::sqrt:
+      return map1(a, n, out, [](float u) { return __builtin_sqrtf(u); });
+    case Op::floor:
+      return map1(a, n, out, [](float u) { return exact_floor(u); });
+    case Op::fract:
+      return map1(a, n, out, [](float u) { return u - exact_floor(u); });
+    case Op::sin:
+      return map1(a, n, out, [](float u) { return exact_sin(u); });
+    case Op::clamp:
+      return map1(a, n, out, [&](float u) { return clamped(u, p[0], p[1]); });
+    case Op::remap:
+      return map1(a, n, out, [&](float u) { return (u - p[0]) * p[1] + p[2]; });
+    case Op::smoothstep:
+      return map1(a, n, out, [&](float u) { return smooth_step(u, p[0], p[1]); });
+    case Op::scale:
+      return map1(a, n, out, [&](float u) { return u * p[0]; });
+    case Op::offset:
+      return map1(a, n, out, [&](float u) { return p[0] + u; });
+    case Op::mirror:
+      return map1(a, n, out, [&](float u) { return p[0] - u; });
+    default:
+      assert(false && "not an arithmetic instruction");
+  }
+}
+
+void two_input_row(const Instruction& instruction, Row a, Row b, std::size_t n,
+                   OutRow out) noexcept {
+  const auto& p = instruction.p;
+  switch (instruction.op) {
+    case Op::add:
+      return map2(a, b, n, out, [](float u, float v) { return u + v; });
+    case Op::sub:
+      return map2(a, b, n, out, [](float u, float v) { return u - v; });
+    case Op::mul:
+      return map2(a, b, n, out, [](float u, float v) { return u * v; });
+    case Op::div:
+      return map2(a, b, n, out, [](float u, float v) { return u / v; });
+    case Op::min:
+      return map2(a, b, n, out, [](float u, float v) { return least(u, v); });
+    case Op::max:
+      return map2(a, b, n, out, [](float u, float v) { return greatest(u, v); });
+    case Op::pow:
+      return map2(a, b, n, out, [](float u, float v) { return exact_pow(u, v); });
+    case Op::mod:
+      return map2(a, b, n, out, [](float u, float v) { return modulo(u, v); });
+    case Op::accumulate:
+      return map2(a, b, n, out, [&](float u, float v) { return u + v * p[0]; });
+    case Op::weigh:
+      return map2(a, b, n, out, [&](float u, float v) { return weighed(u, v, p[0], p[1]); });
+    case Op::smooth_min:
+      return map2(a, b, n, out, [&](float u, float v) { return least(u, v) - blend(u, v, p[0]); });
+    case Op::smooth_max:
+      return map2(a, b, n, out,
+                  [&](float u, float v) { return greatest(u, v) + blend(u, v, p[0]); });
+    default:
+      return one_input_row(instruction, a, n, out);
+  }
+}
+
+}  // namespace
+
+void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+                    OutRow out) noexcept {
+  switch (instruction.op) {
+    case Op::fill:
+      for (std::size_t i = 0; i < n; ++i) {
+        out[i] = instruction.p[0];
+      }
+      return;
+    case Op::mix:
+      return map3(a, b, c, n, out, [](float u, float v, float t) { return u + (v - u) * t; });
+    case Op::multiply_add:
+      return map3(a, b, c, n, out, [](float u, float v, float w) { return u + v * w; });
+    default:
+      return two_input_row(instruction, a, b, n, out);
+  }
+}
+
+}  // namespace mc::graph

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "source/spec/document.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "base/checked.hpp"
+#include "source/json/object_reader.hpp"
+#include "source/spec/nodes.hpp"
+
+// The frame of an mc-volume document: header, grid, convention; the nodes are nodes.cpp's.
+
+namespace mc::source {
+
+namespace {
+
+struct Grid {
+  Index3 samples{2, 2, 2};
+  Vec3 spacing{1, 1, 1};
+  Vec3 origin{0, 0, 0};
+};
+
+constexpr double kMostSamples = std::numeric_limits<std::int32_t>::max();
+
+/// Counts of cells or samples, as samples.
+Index3 read_counts(const JsonDocument& document, const JsonValue& counts, bool are_cells) {
+  Index3 samples{2, 2, 2};
+  if (counts.kind != JsonKind::array || counts.items.size() != 3) {
+    document.fault(counts, as_found(counts) + ": expected an array of 3 integers");
+    return samples;
+  }
+  const double least = are_cells ? 1 : 2;
+  const double most = are_cells ? kMostSamples - 1 : kMostSamples;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const JsonValue& item = counts.items[axis];
+    const double v = item.number;
+    if (item.kind != JsonKind::number || std::floor(v) != v || v < least || v > most) {
+      document.fault(item, as_found(item) + ": expected an integer from " +
+                               std::to_string(static_cast<std::int64_t>(least)) + " to " +
+                               std::to_string(static_cast<std::int64_t>(most)));
+    } else {
+      samples[axis] = static_cast<std::int32_t>(v) + (are_cells ? 1 : 0);
+    }
+  }
+  const auto n = [&](std::size_t axis) { return static_cast<std::uint64_t>(samples[axis]); };
+  if (!base::checked_mul(n(0), n(1), n(2), std::uint64_t{sizeof(float)})) {
+    document.fault(counts, "makes more bytes of samples than 64 bits can count");
+  }
+  return samples;
+}
+
+/// World coordinates are float32 in the formulas: the grid must lie within their range.
+void check_extent(const JsonDocument& document, const JsonValue& at, const Grid& grid) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double last = grid.origin[axis] + (grid.samples[axis] - 1.0) * grid.spacing[axis];
+    if (!(std::abs(last) <= kAnyFloat.hi) || !(std::abs(grid.origin[axis]) <= kAnyFloat.hi)) {
+      document.fault(at, "reaches past world coordinates of +-3.4e38: expected a smaller grid");
+      return;
+    }
+  }
+}
+
+Grid read_grid(const JsonDocument& document, const JsonValue& value) {
+  constexpr NumberRange kSpacing{0, 3.4028234663852886e38, true, "a number above 0"};
+  Grid grid;
+  ObjectReader keys(document, value, "the grid");
+  const JsonValue* cells = keys.optional("cells");
+  const JsonValue* samples = keys.optional("samples");
+  if (keys.is_object() && (cells == nullptr) == (samples == nullptr)) {
+    document.fault(value, cells == nullptr ? "has neither \"cells\" nor \"samples\": expected one"
+                                           : "has both \"cells\" and \"samples\": expected one");
+  } else if (cells != nullptr) {
+    grid.samples = read_counts(document, *cells, true);
+  } else if (samples != nullptr) {
+    grid.samples = read_counts(document, *samples, false);
+  }
+  grid.spacing = keys.numbers<3>("spacing", Vec3{1, 1, 1}, kSpacing, true);
+  grid.origin = keys.numbers<3>("origin", Vec3{0, 0, 0}, kAnyFloat);
+  keys.finish();
+  check_extent(document, value, grid);
+  return grid;
+}
+
+void read_header(ObjectReader& keys) {
+  keys.choice("format", std::nullopt, {"mc-volume"});
+  keys.integer("version", std::nullopt, 1, 1);
+}
+
+Volume volume_of_grid(const Grid& grid) {
+  Volume volume;
+  volume.format = "spec";
+  volume.lattice.box.hi = {grid.samples[0] - 1, grid.samples[1] - 1, grid.samples[2] - 1};
+  volume.lattice.to_world = Affine::scale_translate(grid.spacing, grid.origin);
+  volume.type = SampleType::f32;
+  volume.endian = std::endian::native;
+  volume.units = Units::m;
+  return volume;
+}
+
+/// Compiles; an expansion past the limit becomes a fault of the field.
+GraphField compile(const JsonDocument& document, const Graph& graph, NodeId root,
+                   const JsonValue& at) {
+  try {
+    return graph.compile(root);
+  } catch (const Error& error) {
+    document.fault(at, error.what());
+    document.faults.throw_if_any();
+    throw;
+  }
+}
+
+}  // namespace
+
+SpecDocument load_spec(const std::string& place, std::string_view text) {
+  Faults faults(place, text);
+  const std::optional<JsonValue> root = parse_json(faults);
+  if (!root) {
+    faults.throw_if_any();
+    throw Error(ErrorKind::internal, place, "was not parsed, and nothing says why");
+  }
+  const JsonDocument document{*root, faults};
+  ObjectReader keys(document, *root, "an mc-volume document");
+  read_header(keys);
+  GraphSettings settings;
+  settings.seed = static_cast<std::uint32_t>(keys.integer("seed", 0, 0, 0xFFFFFFFFLL));
+  settings.convention = Convention(keys.choice("convention", 0, {"density", "sdf"}));
+  const double iso = keys.number("iso", 0, kAnyFloat);
+  settings.iso = static_cast<float>(iso);
+  const bool has_border = root->find("border") != nullptr;
+  const auto border = Border(keys.choice("border", 0, {"open", "closed", "solid"}));
+  const JsonValue* grid_value = keys.required("grid");
+  const Grid grid = grid_value == nullptr ? Grid{} : read_grid(document, *grid_value);
+  NodeLoader nodes(document, keys.optional("nodes"), settings);
+  const JsonValue* field = keys.required("field");
+  const NodeId top = field == nullptr ? NodeId{} : nodes.load(*field);
+  nodes.load_unused();
+  keys.finish();
+  faults.throw_if_any();
+
+  SpecDocument spec{volume_of_grid(grid), grid.origin, grid.spacing,
+                    compile(document, nodes.graph(), top, *field)};
+  spec.volume.cls = settings.convention == Convention::density ? VolumeClass::density_spec
+                                                               : VolumeClass::sdf_spec;
+  spec.volume.iso = iso;
+  if (has_border) {
+    spec.volume.border = border;
+  }
+  return spec;
+}
+
+}  // namespace mc::source

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "source/spec/spec.hpp"
+
+#include <cassert>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "base/checked.hpp"
+#include "source/mapped_file.hpp"
+#include "source/spec/document.hpp"
+
+// The reader of procedural volumes: planes are computed into the slab's own memory.
+
+namespace mc::source {
+
+namespace {
+
+class SpecReader final : public SlabReader {
+ public:
+  explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {}
+
+  [[nodiscard]] const Volume& volume() const override { return spec_.volume; }
+  [[nodiscard]] bool rereads_cheaply() const override { return false; }
+
+  void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
+    const Index3 dims = spec_.volume.lattice.dims();
+    assert(0 <= k0 && k0 <= k1 && k1 <= dims[2]);
+    const auto size = [](std::int32_t v) { return static_cast<std::uint64_t>(v); };
+    const auto bytes = base::checked_mul(size(dims[0]), size(dims[1]), size(k1 - k0),
+                                         std::uint64_t{sizeof(float)});
+    if (!bytes || *bytes > static_cast<std::uint64_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
+      throw Error(ErrorKind::limit, "", "the planes of this volume do not fit in memory",
+                  "make the grid smaller");
+    }
+    out.storage.resize(*bytes);
+    out.k0 = k0;
+    out.row_stride_bytes = size(dims[0]) * sizeof(float);
+    const std::uint64_t plane_bytes = out.row_stride_bytes * size(dims[1]);
+    out.planes.clear();
+    for (std::int32_t k = k0; k < k1; ++k) {
+      out.planes.push_back(out.storage.data() + size(k - k0) * plane_bytes);
+    }
+    // Storage comes from operator new, which aligns for every scalar type.
+    auto* samples = reinterpret_cast<float*>(out.storage.data());
+    spec_.field.sample(spec_.origin, spec_.spacing, {0, 0, k0},
+                       View3<float>(samples, {dims[0], dims[1], k1 - k0}));
+  }
+
+ private:
+  SpecDocument spec_;
+};
+
+}  // namespace
+
+std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text) {
+  return std::make_unique<SpecReader>(load_spec(place, text));
+}
+
+std::unique_ptr<SlabReader> open_spec(const std::string& path) {
+  const MappedFile file(path);
+  return open_spec_text(file.place(), file.text());
+}
+
+bool looks_like_spec(std::string_view head) {
+  if (head.starts_with("\xEF\xBB\xBF")) {
+    head.remove_prefix(3);
+  }
+  const std::size_t first = head.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && head[first] == '{' &&
+         head.find("mc-volume") != std::string_view::npos;
+}
+
+}  // namespace mc::source

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "mc/field.hpp"
+
+// Procedural volumes: JSON documents of the format mc-volume, see mc-volume(5).
+
+namespace mc::source {
+
+/// Opens a document; "-" is stdin. The whole document is checked before this returns; samples are
+/// computed as they are read.
+/// Errors   input: missing, unreadable, empty; usage: every fault of the document, a line each.
+/// Cost     read() takes O(samples * nodes), one thread a call.
+std::unique_ptr<SlabReader> open_spec(const std::string& path);
+
+/// The same from a text in memory; `place` is how messages name it.
+std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text);
+
+/// Whether the first bytes of a file look like such a document, damaged ones included.
+[[nodiscard]] bool looks_like_spec(std::string_view head);
+
+}  // namespace mc::source
