@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "mc/mesh.hpp"
+#include "mesh/position_index.hpp"
+
+// Counts what is wrong with a mesh. All that can be said of edges, fans and duplicates is seen from
+// a single vertex: its triangles are gathered (a counting sort over corners), and every vertex is
+// then judged by itself, in parallel. An edge belongs to its lower vertex, a triangle to its
+// lowest. Triangles with an index out of range or a repeated vertex are no triangles to topology
+// and take no part in it. Sums of floating-point numbers are made block by block and added in
+// order, so that no figure depends on the thread count.
+
+namespace mc {
+
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 15;  // vertices or triangles, one item of work
+
+using Triangle = std::array<std::uint64_t, 3>;
+
+bool finite(const Vec3& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+bool in_range(const Triangle& t, std::size_t n_vertices) {
+  return t[0] < n_vertices && t[1] < n_vertices && t[2] < n_vertices;
+}
+
+bool repeats_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// Scales by the power of two that brings the largest component to [1/2, 1).
+void normalise(Vec3& v) {
+  const double largest = std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (double& x : v) {
+    x = std::ldexp(x, -exponent);
+  }
+}
+
+/// a * b == c * d without rounding: equal products round to the same number and leave the same
+/// rest.
+bool equal_products(double a, double b, double c, double d) {
+  const double ab = a * b;
+  const double cd = c * d;
+  return ab == cd && std::fma(a, b, -ab) == std::fma(c, d, -cd);
+}
+
+/// Whether p, q, r (finite) lie on one line, where rounding or range could hide the answer.
+bool collinear_exactly(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const auto quarter = [](const Vec3& v) { return Vec3{v[0] / 4, v[1] / 4, v[2] / 4}; };
+  const bool huge = !finite(minus(q, p)) || !finite(minus(r, p));
+  Vec3 a = huge ? minus(quarter(q), quarter(p)) : minus(q, p);
+  Vec3 b = huge ? minus(quarter(r), quarter(p)) : minus(r, p);
+  normalise(a);
+  normalise(b);
+  return equal_products(a[1], b[2], a[2], b[1]) && equal_products(a[2], b[0], a[0], b[2]) &&
+         equal_products(a[0], b[1], a[1], b[0]);
+}
+
+bool has_zero_area(const Vec3& p, const Vec3& q, const Vec3& r) {
+  const Vec3 normal = cross(minus(q, p), minus(r, p));
+  const auto surely_not_zero = [](double x) { return x != 0 && std::isfinite(x); };
+  if (std::ranges::any_of(normal, surely_not_zero)) {
+    return false;
+  }
+  return collinear_exactly(p, q, r);
+}
+
+/// Calls body(block, begin, end) for the blocks of [0, n); returns nothing, blocks keep results.
+template <class Body>
+void for_blocks(std::size_t n, const Body& body) {
+  const std::size_t n_blocks = (n + kBlock - 1) / kBlock;
+  base::for_ranges(n_blocks, 1, [&](std::size_t first, std::size_t last) {
+    for (std::size_t block = first; block < last; ++block) {
+      body(block, block * kBlock, std::min(n, (block + 1) * kBlock));
+    }
+  });
+}
+
+std::size_t block_count(std::size_t n) { return (n + kBlock - 1) / kBlock; }
+
+void measure_vertices(const MeshSoup& mesh, MeshReport& report) {
+  const bool normals = mesh.normals.size() == mesh.positions.size();
+  mesh::PositionIndex known;
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    const Vec3& p = mesh.positions[v];
+    const bool good_normal =
+        !normals || (std::isfinite(mesh.normals[v][0]) && std::isfinite(mesh.normals[v][1]) &&
+                     std::isfinite(mesh.normals[v][2]));
+    if (!finite(p) || !good_normal) {
+      ++report.not_finite;
+    }
+    if (finite(p)) {
+      report.bounds.include(p);
+      report.duplicate_vertices += known.first(mesh.positions, v) != v ? 1 : 0;
+    }
+  }
+}
+
+/// What a block of triangles adds up to.
+struct Measure {
+  std::uint64_t out_of_range = 0, degenerate = 0, proper = 0;
+  double area = 0, volume = 0;
+
+  void add(const Measure& other) {
+    out_of_range += other.out_of_range;
+    degenerate += other.degenerate;
+    proper += other.proper;
+    area += other.area;
+    volume += other.volume;
+  }
+};
+
+Measure measure(const MeshSoup& mesh, std::span<const Triangle> triangles, const Vec3& centre) {
+  Measure sum;
+  for (const Triangle& t : triangles) {
+    if (!in_range(t, mesh.positions.size())) {
+      ++sum.out_of_range;
+      continue;
+    }
+    if (repeats_vertex(t)) {
+      ++sum.degenerate;
+      continue;
+    }
+    ++sum.proper;
+    const Vec3& p = mesh.positions[t[0]];
+    const Vec3& q = mesh.positions[t[1]];
+    const Vec3& r = mesh.positions[t[2]];
+    if (!finite(p) || !finite(q) || !finite(r)) {
+      continue;
+    }
+    sum.degenerate += has_zero_area(p, q, r) ? 1 : 0;
+    const Vec3 normal = cross(minus(q, p), minus(r, p));
+    sum.area += std::sqrt(dot(normal, normal)) / 2;
+    sum.volume += dot(minus(p, centre), normal) / 6;
+  }
+  return sum;
+}
+
+Measure measure_triangles(const MeshSoup& mesh, const Bounds& bounds) {
+  Vec3 centre{};
+  if (!bounds.empty()) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      centre[a] = bounds.lo[a] / 2 + bounds.hi[a] / 2;
+    }
+  }
+  std::vector<Measure> blocks(block_count(mesh.triangles.size()));
+  for_blocks(mesh.triangles.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+    blocks[block] = measure(mesh, std::span(mesh.triangles).subspan(begin, end - begin), centre);
+  });
+  Measure sum;
+  for (const Measure& block : blocks) {
+    sum.add(block);
+  }
+  return sum;
+}
+
+/// Triangles of each vertex: those of v are of[start[v]] to of[start[v + 1]]. Id is as narrow as
+/// three corners a triangle allow.
+template <class Id>
+struct Incidence {
+  std::vector<Id> start;
+  Buffer<Id> of;
+};
+
+bool proper(const Triangle& t, std::size_t n_vertices) {
+  return in_range(t, n_vertices) && !repeats_vertex(t);
+}
+
+template <class Id>
+Incidence<Id> gather(const MeshSoup& mesh) {
+  const std::size_t n = mesh.positions.size();
+  Incidence<Id> incidence;
+  incidence.start.assign(n + 1, 0);
+  for (const Triangle& t : mesh.triangles) {
+    if (proper(t, n)) {
+      for (const std::uint64_t v : t) {
+        ++incidence.start[v];
+      }
+    }
+  }
+  std::inclusive_scan(incidence.start.begin(), incidence.start.end(), incidence.start.begin());
+  incidence.of.resize(incidence.start[n]);
+  // Filled from the back, so that each entry ends as the start of its vertex.
+  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
+    if (proper(mesh.triangles[t], n)) {
+      for (const std::uint64_t v : mesh.triangles[t]) {
+        incidence.of[--incidence.start[v]] = static_cast<Id>(t);
+      }
+    }
+  }
+  return incidence;
+}
+
+/// What a block of vertices sees around itself.
+struct Around {
+  std::uint64_t referenced = 0, edges = 0, boundary = 0, crowded_edges = 0, misoriented = 0;
+  std::uint64_t duplicate = 0, torn = 0;
+
+  void add(const Around& other) {
+    referenced += other.referenced;
+    edges += other.edges;
+    boundary += other.boundary;
+    crowded_edges += other.crowded_edges;
+    misoriented += other.misoriented;
+    duplicate += other.duplicate;
+    torn += other.torn;
+  }
+};
+
+/// Judges one vertex after the other; keeps its scratch.
+class VertexJudge {
+ public:
+  /// `triangle(n)` is the n-th triangle around `v`.
+  template <class TriangleAt>
+  void judge(std::uint64_t v, std::size_t n_triangles, const TriangleAt& triangle, Around& sum) {
+    spokes_.clear();
+    opposite_.clear();
+    for (std::size_t n = 0; n < n_triangles; ++n) {
+      const Triangle& t = triangle(n);
+      const std::size_t corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+      const std::uint64_t next = t[(corner + 1) % 3];
+      const std::uint64_t last = t[(corner + 2) % 3];
+      spokes_.push_back({next, n, true});
+      spokes_.push_back({last, n, false});
+      if (v < next && v < last) {
+        opposite_.emplace_back(std::min(next, last), std::max(next, last));
+      }
+    }
+    std::ranges::sort(spokes_, {}, &Spoke::to);
+    ++sum.referenced;
+    count_edges(v, sum);
+    sum.torn += fans(n_triangles) > 1 ? 1 : 0;
+    std::ranges::sort(opposite_);
+    for (std::size_t n = 1; n < opposite_.size(); ++n) {
+      sum.duplicate += opposite_[n] == opposite_[n - 1] ? 1 : 0;
+    }
+  }
+
+ private:
+  /// One triangle's use of the edge from the vertex to `to`.
+  struct Spoke {
+    std::uint64_t to;
+    std::size_t triangle;  // around the vertex
+    bool leaves;           // the triangle runs from the vertex to `to`
+  };
+
+  void count_edges(std::uint64_t v, Around& sum) const {
+    for (std::size_t begin = 0, end = 0; begin < spokes_.size(); begin = end) {
+      while (end < spokes_.size() && spokes_[end].to == spokes_[begin].to) {
+        ++end;
+      }
+      if (v < spokes_[begin].to) {
+        ++sum.edges;
+        sum.boundary += end - begin == 1 ? 1 : 0;
+        sum.crowded_edges += end - begin > 2 ? 1 : 0;
+        const bool same_way =
+            end - begin == 2 && spokes_[begin].leaves == spokes_[begin + 1].leaves;
+        sum.misoriented += same_way ? 1 : 0;
+      }
+    }
+  }
+
+  /// Groups of triangles that hang together by edges at the vertex.
+  std::size_t fans(std::size_t n_triangles) {
+    parent_.resize(n_triangles);
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+    const auto root = [this](std::size_t n) {
+      while (parent_[n] != n) {
+        n = parent_[n] = parent_[parent_[n]];
+      }
+      return n;
+    };
+    std::size_t n_fans = n_triangles;
+    for (std::size_t s = 1; s < spokes_.size(); ++s) {
+      if (spokes_[s].to == spokes_[s - 1].to) {
+        const std::size_t a = root(spokes_[s].triangle);
+        const std::size_t b = root(spokes_[s - 1].triangle);
+        parent_[std::max(a, b)] = std::min(a, b);
+        n_fans -= a != b ? 1 : 0;
+      }
+    }
+    return n_fans;
+  }
+
+  std::vector<Spoke> spokes_;
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> opposite_;
+  std::vector<std::size_t> parent_;
+};
+
+template <class Id>
+Around look_around(const MeshSoup& mesh) {
+  const Incidence<Id> incidence = gather<Id>(mesh);
+  const std::size_t n = mesh.positions.size();
+  std::vector<Around> blocks(block_count(n));
+  for_blocks(n, [&](std::size_t block, std::size_t begin, std::size_t end) {
+    VertexJudge judge;
+    for (std::size_t v = begin; v < end; ++v) {
+      const std::size_t first = incidence.start[v];
+      const std::size_t n_around = incidence.start[v + 1] - first;
+      const auto triangle = [&](std::size_t k) -> const Triangle& {
+        return mesh.triangles[incidence.of[first + k]];
+      };
+      if (n_around > 0) {
+        judge.judge(v, n_around, triangle, blocks[block]);
+      }
+    }
+  });
+  Around sum;
+  for (const Around& block : blocks) {
+    sum.add(block);
+  }
+  return sum;
+}
+
+/// Sets of vertices that triangles join, less those that none uses.
+template <class Id>
+std::uint64_t count_components(const MeshSoup& mesh, std::uint64_t n_referenced) {
+  const std::size_t n = mesh.positions.size();
+  std::vector<Id> parent(n);
+  std::iota(parent.begin(), parent.end(), Id{0});
+  const auto root = [&](std::uint64_t v) {
+    while (parent[v] != v) {
+      v = parent[v] = parent[parent[v]];
+    }
+    return v;
+  };
+  std::uint64_t n_components = n_referenced;
+  for (const Triangle& t : mesh.triangles) {
+    if (!proper(t, n)) {
+      continue;
+    }
+    for (std::size_t c = 1; c < 3; ++c) {
+      const std::uint64_t a = root(t[0]);
+      const std::uint64_t b = root(t[c]);
+      parent[std::max(a, b)] = static_cast<Id>(std::min(a, b));
+      n_components -= a != b ? 1 : 0;
+    }
+  }
+  return n_components;
+}
+
+template <class Id>
+void check_topology(const MeshSoup& mesh, std::uint64_t n_proper, MeshReport& report) {
+  const Around around = look_around<Id>(mesh);
+  report.duplicate = around.duplicate;
+  report.boundary_edges = around.boundary;
+  report.nonmanifold_edges = around.crowded_edges;
+  report.nonmanifold_vertices = around.torn;
+  report.misoriented_edges = around.misoriented;
+  report.unreferenced_vertices = mesh.positions.size() - around.referenced;
+  report.euler = static_cast<std::int64_t>(around.referenced) -
+                 static_cast<std::int64_t>(around.edges) + static_cast<std::int64_t>(n_proper);
+  report.components = count_components<Id>(mesh, around.referenced);
+}
+
+}  // namespace
+
+bool MeshReport::defective(bool must_be_closed) const {
+  return not_finite + out_of_range + degenerate + duplicate + nonmanifold_edges +
+                 nonmanifold_vertices + misoriented_edges >
+             0 ||
+         (must_be_closed && !closed());
+}
+
+MeshReport check_mesh(const MeshSoup& mesh) {
+  MeshReport report;
+  report.n_vertices = mesh.positions.size();
+  report.n_triangles = mesh.triangles.size();
+  measure_vertices(mesh, report);
+  const Measure sum = measure_triangles(mesh, report.bounds);
+  report.out_of_range = sum.out_of_range;
+  report.degenerate = sum.degenerate;
+  report.area = sum.area;
+  report.volume = sum.volume;
+  constexpr std::uint64_t kNarrow = std::numeric_limits<std::uint32_t>::max();
+  if (mesh.positions.size() < kNarrow && mesh.triangles.size() < kNarrow / 3) {
+    check_topology<std::uint32_t>(mesh, sum.proper, report);
+  } else {
+    check_topology<std::uint64_t>(mesh, sum.proper, report);
+  }
+  return report;
+}
+
+}  // namespace mc
