@@ -99,6 +99,13 @@ MappedFile::MappedFile(const std::string& path) : place_(path == "-" ? "<stdin>"
   }
   const bool regular = S_ISREG(status.st_mode);
   const Descriptor file(regular ? ::dup(opened.get()) : spooled(opened.get(), place_));
+  if (!regular && path == "-") {
+    // A pipe can be read once: from now on stdin is the copy, so that "-" can be opened again.
+    ::lseek(file.get(), 0, SEEK_SET);
+    if (::dup2(file.get(), STDIN_FILENO) < 0) {
+      cannot("keep a copy of", place_);
+    }
+  }
   if (::fstat(file.get(), &status) != 0) {
     cannot("read", place_);
   }

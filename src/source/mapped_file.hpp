@@ -7,7 +7,8 @@
 #include <string_view>
 
 // A file's bytes, read-only. Regular files are mapped; what cannot be mapped (a pipe, a FIFO) is
-// first copied to an unlinked temporary file in $TMPDIR, so that every reader may seek.
+// first copied to an unlinked temporary file in $TMPDIR, so that every reader may seek. A piped
+// stdin is replaced by its copy: who looks at the first bytes leaves them for who reads the whole.
 
 namespace mc::source {
 

@@ -1,2 +1,206 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <optional>
+#include <utility>
+
 #include "mc/source.hpp"
+#include "source/format.hpp"
+#include "source/input_files.hpp"
+#include "source/mapped_file.hpp"
+#include "source/nrrd/nrrd.hpp"
+#include "source/placement.hpp"
+#include "source/raw/raw.hpp"
+#include "source/text.hpp"
+#include "source/vdb/vdb.hpp"
+
+#if __has_include("source/spec/spec.hpp")
+#include "source/spec/spec.hpp"
+#else
+namespace mc::source {
+namespace {
+bool looks_like_spec(std::string_view /*head*/) { return false; }
+std::unique_ptr<SlabReader> open_spec(const std::string& path) {
+  throw Error(ErrorKind::input, path, "mc-volume is not supported by this version");
+}
+}  // namespace
+}  // namespace mc::source
+#endif
+
+// What an input is, and who reads it. Decided by --from, then by --dims with --type (raw), then by
+// content, then by extension.
+
+namespace mc::source {
+
+namespace {
+
+constexpr std::string_view kRawRemedy = "for raw data give --dims X,Y[,Z] and --type";
+
+struct Decision {
+  Format format = Format::raw;
+  std::optional<MappedFile> file;  ///< of formats that are one file
+};
+
+[[noreturn]] void unsupported(Format format, std::string_view place) {
+  if (format == Format::mesh) {
+    throw Error(ErrorKind::input, place, "a mesh, but a volume was expected");
+  }
+  throw Error(ErrorKind::input, place,
+              fmt::format("{} is not supported by this version", display_name(format)),
+              "convert it to VDB, NRRD or raw first");
+}
+
+std::optional<Format> recognised(const MappedFile& file, const std::string& path) {
+  std::optional<Format> format = format_of_content(file.text());
+  if (!format && looks_like_spec(file.text())) {
+    format = Format::spec;
+  }
+  if (format == Format::gzip && path.ends_with(".nii.gz")) {
+    format = Format::nifti;
+  }
+  return format ? format : format_of_extension(extension_of(path));
+}
+
+/// Several files without --dims and --type: no volume, but the first tells what is missing.
+[[noreturn]] void refuse_series(const InputFiles& inputs) {
+  const std::string& first = inputs.paths.front();
+  const std::optional<Format> format = recognised(MappedFile(first), first);
+  if (format && !is_readable(*format)) {
+    unsupported(*format, inputs.place);
+  }
+  if (inputs.from_folder) {
+    throw Error(ErrorKind::input, inputs.place, "a folder with no known file", kRawRemedy);
+  }
+  throw Error(
+      ErrorKind::usage, inputs.place,
+      fmt::format("{} files, but only slices make one volume together", inputs.paths.size()),
+      kRawRemedy);
+}
+
+Decision decide_by_file(const InputFiles& inputs, const SourceOptions& options) {
+  const std::string& path = inputs.paths.front();
+  MappedFile file(path);
+  const bool wants_raw = !options.dims.empty() || options.type.has_value();
+  const std::optional<Format> format = recognised(file, path);
+  if (!format && wants_raw) {
+    return {};
+  }
+  if (!format) {
+    throw Error(ErrorKind::usage, inputs.place,
+                "neither its content nor its extension says what it is",
+                fmt::format("name it by --from, or {}", kRawRemedy));
+  }
+  if (!is_readable(*format)) {
+    unsupported(*format, inputs.place);
+  }
+  const std::filesystem::path sidecar = std::filesystem::path(path).replace_extension(".nhdr");
+  std::error_code ignored;
+  if (format == Format::raw && !wants_raw && std::filesystem::exists(sidecar, ignored)) {
+    return {Format::nrrd, MappedFile(sidecar.string())};
+  }
+  return {*format, std::move(file)};
+}
+
+Decision decide(const InputFiles& inputs, const SourceOptions& options) {
+  if (!options.from.empty()) {
+    const std::optional<Format> format = format_named(options.from);
+    if (!format) {
+      throw Error(ErrorKind::usage, "--from",
+                  fmt::format("{} is no kind of input", in_quotes(options.from)),
+                  "choose one of vdb, raw, nrrd, spec");
+    }
+    if (!is_readable(*format)) {
+      unsupported(*format, inputs.place);
+    }
+    if (format == Format::raw) {
+      return {};
+    }
+    if (inputs.paths.size() > 1) {
+      throw Error(
+          ErrorKind::usage, inputs.place,
+          fmt::format("{} files, but --from {} reads one", inputs.paths.size(), options.from));
+    }
+    return {*format, MappedFile(inputs.paths.front())};
+  }
+  if (!options.dims.empty() && options.type) {
+    return {};
+  }
+  if (inputs.from_folder || inputs.paths.size() > 1) {
+    refuse_series(inputs);
+  }
+  return decide_by_file(inputs, options);
+}
+
+/// Options that say what raw data is contradict a file that says it itself.
+void check_options(const InputFiles& inputs, Format format, const SourceOptions& options) {
+  const auto refuse = [&](bool given, std::string_view option, std::string_view what) {
+    if (given) {
+      throw Error(ErrorKind::usage, option,
+                  fmt::format("is for {}, but {} is {}", what, inputs.place, display_name(format)));
+    }
+  };
+  refuse(options.grid.has_value() && format != Format::vdb, "--grid", "VDB files");
+  if (format != Format::raw) {
+    refuse(!options.dims.empty(), "--dims", "raw data");
+    refuse(options.type.has_value(), "--type", "raw data");
+    refuse(options.endian != std::endian::little, "--endian", "raw data");
+    refuse(options.skip_bytes != 0, "--skip", "raw data");
+  }
+}
+
+Source open_decided(const InputFiles& inputs, Decision decision, const SourceOptions& options,
+                    Progress& progress) {
+  Source source;
+  source.place = inputs.place;
+  switch (decision.format) {
+    case Format::nrrd:
+      source.reader = open_nrrd(std::move(*decision.file), options, progress);
+      break;
+    case Format::vdb: {
+      VdbSource vdb = open_vdb(*decision.file, options);
+      source.reader = std::move(vdb.reader);
+      source.other_grids = std::move(vdb.other_grids);
+      break;
+    }
+    case Format::spec: {
+      std::unique_ptr<SlabReader> spec = open_spec(inputs.paths.front());
+      source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
+      break;
+    }
+    default:
+      source.reader = open_raw(inputs, options);
+  }
+  return source;
+}
+
+}  // namespace
+
+}  // namespace mc::source
+
+namespace mc {
+
+Source open_source(std::span<const std::string> inputs, const SourceOptions& options,
+                   Progress& progress) {
+  source::check_placement(options);
+  const source::InputFiles files = source::expand_inputs(inputs, progress);
+  source::Decision decision = source::decide(files, options);
+  source::check_options(files, decision.format, options);
+  return source::open_decided(files, std::move(decision), options, progress);
+}
+
+std::vector<GridDescription> describe_source(std::span<const std::string> inputs,
+                                             const SourceOptions& options, Progress& progress) {
+  source::check_placement(options);
+  const source::InputFiles files = source::expand_inputs(inputs, progress);
+  source::Decision decision = source::decide(files, options);
+  source::check_options(files, decision.format, options);
+  if (decision.format == source::Format::vdb) {
+    return source::describe_vdb(*decision.file);
+  }
+  const Source opened = source::open_decided(files, std::move(decision), options, progress);
+  const Volume& volume = volume_of(opened.reader);
+  return {{volume, sample_name(volume.type), ""}};
+}
+
+}  // namespace mc

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "source/placement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace mc::source {
+
+namespace {
+
+class PlacedReader final : public SlabReader {
+ public:
+  PlacedReader(std::unique_ptr<SlabReader> reader, const SourceOptions& options)
+      : reader_(std::move(reader)), volume_(reader_->volume()) {
+    volume_.lattice.to_world = placed(volume_.lattice.to_world, options);
+  }
+  [[nodiscard]] const Volume& volume() const override { return volume_; }
+  void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
+    reader_->read(k0, k1, out);
+  }
+  [[nodiscard]] bool rereads_cheaply() const override { return reader_->rereads_cheaply(); }
+
+ private:
+  std::unique_ptr<SlabReader> reader_;
+  Volume volume_;
+};
+
+bool finite(double value) { return std::isfinite(value); }
+
+}  // namespace
+
+void check_placement(const SourceOptions& options) {
+  if (options.spacing &&
+      !std::ranges::all_of(*options.spacing, [](double s) { return finite(s) && s > 0; })) {
+    throw Error(ErrorKind::usage, "--spacing", "three finite numbers above 0 were expected");
+  }
+  if (options.origin && !std::ranges::all_of(*options.origin, finite)) {
+    throw Error(ErrorKind::usage, "--origin", "three finite numbers were expected");
+  }
+}
+
+Affine placed(Affine to_world, const SourceOptions& options) {
+  if (options.spacing) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double length = to_world.spacing(static_cast<int>(axis));
+      const double wanted = (*options.spacing)[axis];
+      for (std::size_t row = 0; row < 3; ++row) {
+        // An axis-aligned map takes the number as given, not a rounded multiple of the old one.
+        double& m = to_world.m[4 * row + axis];
+        m = std::abs(m) == length ? std::copysign(wanted, m) : m * (wanted / length);
+      }
+    }
+  }
+  if (options.origin) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      to_world.m[4 * row + 3] = (*options.origin)[row];
+    }
+  }
+  return to_world;
+}
+
+bool places(const SourceOptions& options) {
+  return options.spacing.has_value() || options.origin.has_value();
+}
+
+std::unique_ptr<SlabReader> placed_reader(std::unique_ptr<SlabReader> reader,
+                                          const SourceOptions& options) {
+  return std::make_unique<PlacedReader>(std::move(reader), options);
+}
+
+void check_map(const Affine& to_world, std::string_view place) {
+  const double volume = to_world.determinant();
+  if (!std::ranges::all_of(to_world.m, finite) || !finite(volume) || volume == 0) {
+    throw Error(ErrorKind::input, place,
+                "the map from samples to the world is singular or not finite");
+  }
+}
+
+}  // namespace mc::source

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "source/vdb/layout.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstring>
+
+#include "mc/base.hpp"
+
+namespace mc::source {
+
+namespace {
+
+constexpr char kNumberFollows = '\x1E';
+constexpr std::string_view kHalfSuffix = "_HalfFloat";
+constexpr std::string_view kTreePrefix = "Tree_";
+constexpr std::string_view kTreeSuffix = "_5_4_3";
+constexpr std::uint32_t kOldest = 222;  // OpenVDB 1.0, the first release
+constexpr std::uint32_t kNewest = 224;
+constexpr std::size_t kUuidBytes = 36;
+
+[[noreturn]] void damaged(std::string_view place, std::string_view what) {
+  throw Error(ErrorKind::input, place, fmt::format("damaged VDB file: {}", what),
+              "fetch or write the file again");
+}
+
+}  // namespace
+
+std::span<const std::byte> VdbCursor::take(std::size_t n_bytes, std::string_view what) {
+  if (at_ > bytes_.size() || n_bytes > bytes_.size() - at_) {
+    throw Error(ErrorKind::input, place_,
+                fmt::format("cut off after {} bytes, within {}", bytes_.size(), what),
+                "fetch or write the file again");
+  }
+  const std::span<const std::byte> taken = bytes_.subspan(at_, n_bytes);
+  at_ += n_bytes;
+  return taken;
+}
+
+template <class T>
+T VdbCursor::number(std::string_view what) {
+  static_assert(std::endian::native == std::endian::little, "VDB files are little-endian");
+  T value{};
+  std::memcpy(&value, take(sizeof value, what).data(), sizeof value);
+  return value;
+}
+
+std::string VdbCursor::text(std::string_view what) {
+  const auto length = number<std::uint32_t>(what);
+  const std::span<const std::byte> bytes = take(length, what);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+VdbMetaMap read_meta_map(VdbCursor& cursor) {
+  VdbMetaMap map;
+  const auto n_entries = cursor.number<std::int32_t>("metadata");
+  for (std::int32_t n = 0; n < n_entries; ++n) {  // each takes bytes, so the file bounds the loop
+    std::string name = cursor.text("metadata");
+    std::string type = cursor.text("metadata");
+    const auto n_bytes = cursor.number<std::uint32_t>("metadata");
+    map[std::move(name)] = {std::move(type), cursor.take(n_bytes, "metadata")};
+  }
+  return map;
+}
+
+std::string VdbGrid::shown_name() const {
+  const std::size_t at = unique_name.find(kNumberFollows);
+  return at == std::string::npos ? name : fmt::format("{}[{}]", name, unique_name.substr(at + 1));
+}
+
+bool VdbGrid::standard_tree() const {
+  return tree_type.starts_with(kTreePrefix) && tree_type.ends_with(kTreeSuffix) &&
+         tree_type.size() > kTreePrefix.size() + kTreeSuffix.size();
+}
+
+std::string VdbGrid::type_name() const {
+  return standard_tree()
+             ? tree_type.substr(kTreePrefix.size(),
+                                tree_type.size() - kTreePrefix.size() - kTreeSuffix.size())
+             : tree_type;
+}
+
+std::string VdbGrid::meta_text(std::string_view key) const {
+  const auto at = meta.find(key);
+  if (at == meta.end() || at->second.type != "string") {
+    return {};
+  }
+  const std::span<const std::byte> bytes = at->second.bytes;
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::optional<std::int64_t> VdbGrid::meta_int64(std::string_view key) const {
+  const auto at = meta.find(key);
+  std::int64_t value = 0;
+  if (at == meta.end() || at->second.bytes.size() != sizeof value) {
+    return std::nullopt;
+  }
+  std::memcpy(&value, at->second.bytes.data(), sizeof value);
+  return value;
+}
+
+std::optional<std::array<std::int32_t, 3>> VdbGrid::meta_vec3i(std::string_view key) const {
+  const auto at = meta.find(key);
+  std::array<std::int32_t, 3> value{};
+  if (at == meta.end() || at->second.bytes.size() != sizeof value) {
+    return std::nullopt;
+  }
+  std::memcpy(value.data(), at->second.bytes.data(), sizeof value);
+  return value;
+}
+
+bool looks_like_vdb(std::string_view head) {
+  return head.substr(0, 8) == std::string_view(" BDV\0\0\0\0", 8);
+}
+
+VdbLayout read_vdb_layout(std::span<const std::byte> file, std::string_view place) {
+  VdbCursor cursor(file, 0, place);
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  if (!looks_like_vdb(text)) {
+    throw Error(ErrorKind::input, place, "not a VDB file: it does not begin with the magic number");
+  }
+  cursor.take(8, "the header");
+  VdbLayout layout;
+  layout.file_version = cursor.number<std::uint32_t>("the header");
+  if (layout.file_version < kOldest || layout.file_version > kNewest) {
+    throw Error(ErrorKind::input, place,
+                fmt::format("VDB file version {}, but {} to {} can be read", layout.file_version,
+                            kOldest, kNewest));
+  }
+  layout.library_major = cursor.number<std::uint32_t>("the header");
+  layout.library_minor = cursor.number<std::uint32_t>("the header");
+  layout.has_offsets = cursor.number<std::uint8_t>("the header") != 0;
+  cursor.take(kUuidBytes, "the header");
+  read_meta_map(cursor);
+  const auto n_grids = cursor.number<std::int32_t>("the header");
+  if (n_grids < 0) {
+    damaged(place, fmt::format("{} grids", n_grids));
+  }
+  layout.n_grids = static_cast<std::uint32_t>(n_grids);
+  layout.first_descriptor = cursor.at();
+  return layout;
+}
+
+VdbGrid read_vdb_grid(std::span<const std::byte> file, const VdbLayout& layout, std::size_t at,
+                      std::string_view place) {
+  VdbCursor cursor(file, at, place);
+  constexpr std::string_view kWhat = "the list of grids";
+  VdbGrid grid;
+  grid.unique_name = cursor.text(kWhat);
+  grid.name = grid.unique_name.substr(0, grid.unique_name.find(kNumberFollows));
+  grid.tree_type = cursor.text(kWhat);
+  if (grid.tree_type.ends_with(kHalfSuffix)) {
+    grid.as_half = true;
+    grid.tree_type.resize(grid.tree_type.size() - kHalfSuffix.size());
+  }
+  grid.instance_of = cursor.text(kWhat);
+  const auto begin = cursor.number<std::uint64_t>(kWhat);
+  cursor.number<std::uint64_t>(kWhat);  // where the tree's buffers begin
+  const auto end = cursor.number<std::uint64_t>(kWhat);
+  if (layout.has_offsets) {
+    if (end > file.size()) {
+      throw Error(
+          ErrorKind::input, place,
+          fmt::format("cut off: {} bytes, but its grids need at least {}", file.size(), end),
+          "fetch or write the file again");
+    }
+    if (begin < cursor.at() || end < begin) {
+      damaged(place, "grids overlap");
+    }
+    cursor.move_to(static_cast<std::size_t>(begin));
+    grid.end = static_cast<std::size_t>(end);
+  }
+  grid.begin = cursor.at();
+  grid.compression = cursor.number<std::uint32_t>("a grid");
+  grid.meta = read_meta_map(cursor);
+  grid.body = cursor.at();
+  VdbCursor(file, grid.body, place).text("a grid's transform");
+  return grid;
+}
+
+}  // namespace mc::source

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+// The outline of a VDB file: header, grid descriptors, metadata. It is walked here, byte by byte
+// within bounds, and OpenVDB sees only trees and transforms: its own readers allocate what a
+// length in the file says before they look whether the bytes are there.
+
+namespace mc::source {
+
+/// A position in a file's bytes that cannot leave them.
+class VdbCursor {
+ public:
+  VdbCursor(std::span<const std::byte> bytes, std::size_t at, std::string_view place)
+      : bytes_(bytes), at_(at), place_(place) {}
+
+  /// Errors   input: the file ends before.
+  std::span<const std::byte> take(std::size_t n_bytes, std::string_view what);
+  template <class T>
+  T number(std::string_view what);
+  /// A 32-bit length and as many bytes.
+  std::string text(std::string_view what);
+
+  [[nodiscard]] std::size_t at() const { return at_; }
+  void move_to(std::size_t at) { at_ = at; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t at_;
+  std::string_view place_;
+};
+
+/// Name -> type and bytes.
+struct VdbMeta {
+  std::string type;
+  std::span<const std::byte> bytes;
+};
+using VdbMetaMap = std::map<std::string, VdbMeta, std::less<>>;
+VdbMetaMap read_meta_map(VdbCursor& cursor);
+
+/// One grid as its descriptor has it.
+struct VdbGrid {
+  std::string unique_name;  ///< with 0x1E and a number where several grids share a name
+  std::string name;
+  std::string tree_type;  ///< "Tree_float_5_4_3", without the suffix for half
+  bool as_half = false;
+  std::string instance_of;  ///< unique name of the grid whose tree this one shares
+  std::size_t begin = 0;    ///< offset of its compression flags
+  std::size_t end = 0;      ///< 0: unknown (a file that was written to a stream)
+  std::size_t body = 0;     ///< offset of its transform
+  std::uint32_t compression = 0;
+  VdbMetaMap meta;
+
+  /// "density[0]" where several share the name.
+  [[nodiscard]] std::string shown_name() const;
+  /// "float", "vec3s", "ptdataidx32"; the whole of tree_type where it is not 5-4-3.
+  [[nodiscard]] std::string type_name() const;
+  [[nodiscard]] bool standard_tree() const;
+  [[nodiscard]] std::string meta_text(std::string_view key) const;
+  [[nodiscard]] std::optional<std::int64_t> meta_int64(std::string_view key) const;
+  [[nodiscard]] std::optional<std::array<std::int32_t, 3>> meta_vec3i(std::string_view key) const;
+};
+
+struct VdbLayout {
+  std::uint32_t file_version = 0;
+  std::uint32_t library_major = 0, library_minor = 0;
+  bool has_offsets = false;
+  std::uint32_t n_grids = 0;
+  std::size_t first_descriptor = 0;
+};
+
+/// Whether `head` begins with the magic of a VDB file.
+[[nodiscard]] bool looks_like_vdb(std::string_view head);
+
+/// Errors   input, named by `place`: no VDB file, a version before 222 or after 224, cut off.
+VdbLayout read_vdb_layout(std::span<const std::byte> file, std::string_view place);
+
+/// Reads the descriptor at `at`, and the grid's flags and metadata (which follow it at once where
+/// the file has no offsets). Errors   input: cut off, offsets that go back or past the end.
+VdbGrid read_vdb_grid(std::span<const std::byte> file, const VdbLayout& layout, std::size_t at,
+                      std::string_view place);
+
+}  // namespace mc::source
