@@ -207,7 +207,8 @@ MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
       ErrorKind::empty, source_->place,
       fmt::format("no surface at iso {}: the data lie in [{}, {}]", value,
                   iso_text(statistics.min, volume().type), iso_text(statistics.max, volume().type)),
-      "choose an --iso between them, or give --allow-empty");
+      statistics.min == statistics.max ? "all samples are the same"
+                                       : "choose an --iso between them");
 }
 
 void Extraction::note_border(const MeshTotals& totals) const {

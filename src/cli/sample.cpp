@@ -37,13 +37,13 @@ std::int32_t planes_a_read(const Volume& volume, std::uint64_t memory_bytes,
   return static_cast<std::int32_t>(std::min<std::uint64_t>(n_planes, 32));
 }
 
-void write_dense(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
-                 Session& session) {
+/// All planes in order; the sink has begun.
+void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
+                  Session& session) {
   const Volume& volume = reader.volume();
   const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
   const std::int32_t step = planes_a_read(volume, plan.memory_bytes, plan.job.output);
   session.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
-  sink.begin(volume);
   Slab slab;
   for (std::int32_t k = 0; k < n_planes; k += step) {
     if (session.stop.stop_requested()) throw Cancelled();
@@ -54,22 +54,29 @@ void write_dense(const SlabReader& reader, const SamplePlan& plan, VolumeSink& s
   }
 }
 
-void write_dense(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
-                 Session& session) {
-  const IndexBox box = plan.region.value_or(reader.volume().lattice.box);
-  write_dense(*dense_view(reader, box), plan, sink, session);
+void write_part(const SlabReader& part, const SamplePlan& plan, VolumeSink& sink,
+                Session& session) {
+  sink.begin(part.volume());
+  write_planes(part, plan, sink, session);
 }
 
 void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink, Session& session) {
   if (plan.region) {
-    write_dense(*crop_view(reader, *plan.region), plan, sink, session);
+    write_part(*crop_view(reader, *plan.region), plan, sink, session);
   } else {
-    write_dense(reader, plan, sink, session);
+    write_part(reader, plan, sink, session);
   }
 }
 
 void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink, Session& session) {
-  if (plan.region || !sink.write_sparse(reader)) write_dense(reader, plan, sink, session);
+  if (plan.region) {
+    write_part(*dense_view(reader, *plan.region), plan, sink, session);
+    return;
+  }
+  sink.begin(reader.volume());
+  if (!sink.write_sparse(reader)) {
+    write_planes(*dense_view(reader, reader.volume().lattice.box), plan, sink, session);
+  }
 }
 
 }  // namespace
