@@ -195,7 +195,8 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
   if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
   if (plan.batch && !args.to) plan.sink.to = "glb";
   if (!plan.batch && !args.output) {
-    refuse_missing_output("extract", args.common, args.source.inputs, ".glb");
+    refuse_missing_output("extract", args.common, args.source.inputs,
+                          "." + args.to.value_or("glb"));
   }
   plan.format = output_format(plan.batch ? "" : *args.output, plan.sink);
   if (!is_mesh_format(plan.format)) {
@@ -246,7 +247,10 @@ SamplePlan resolve(const SampleArgs& args) {
   plan.common = resolve_common(args.common);
   plan.source = resolve_source(args.source);
   check_output_name(args.output);
-  if (!args.output) refuse_missing_output("sample", args.common, args.source.inputs, ".nrrd");
+  if (!args.output) {
+    refuse_missing_output("sample", args.common, args.source.inputs,
+                          "." + args.to.value_or("nrrd"));
+  }
   plan.sink.force = args.force;
   plan.sink.to = args.to.value_or("");
   plan.format = output_format(*args.output, plan.sink);

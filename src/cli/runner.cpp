@@ -50,7 +50,7 @@ int run_top(const std::vector<std::string>& words) {
   } else if (args.version) {
     print_out(version_text(args.common.verbose > 0));
   } else {
-    throw Error(ErrorKind::usage, "mc", "no command: expected extract, sample, info, check or help",
+    throw Error(ErrorKind::usage, {}, "no command: expected extract, sample, info, check or help",
                 "see mc --help");
   }
   return 0;

@@ -136,8 +136,8 @@ IndexBox parse_region(std::string_view option, std::string_view text) {
     const std::int64_t extent = box.extent(static_cast<int>(a));
     if (extent < 2 || extent > std::numeric_limits<std::int32_t>::max()) {
       refuse(option,
-             fmt::format("{}..{} along {} holds {} samples: expected at least 2", box.lo[a],
-                         box.hi[a], "ijk"[a], std::max<std::int64_t>(extent, 0)),
+             fmt::format("{}..{} along {} is too short ({}): expected at least 2 samples",
+                         box.lo[a], box.hi[a], "ijk"[a], std::max<std::int64_t>(extent, 0)),
              "both ends are inclusive");
     }
   }

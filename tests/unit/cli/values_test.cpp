@@ -48,7 +48,8 @@ TEST(Values, ReadsVectors) {
 TEST(Values, ReadsRegions) {
   EXPECT_EQ(parse_region("--region", "-8,0,1:7,1,2"), (IndexBox{{-8, 0, 1}, {7, 1, 2}}));
   EXPECT_EQ(usage_error([] { parse_region("--region", "0,0,0:3,0,3"); }),
-            "--region: 0..0 along j holds 1 samples: expected at least 2; both ends are inclusive");
+            "--region: 0..0 along j is too short (1): expected at least 2 samples; both ends are "
+            "inclusive");
   EXPECT_EQ(usage_error([] { parse_region("--region", "0,0,0"); }),
             "--region: '0,0,0' is no region: expected I0,J0,K0:I1,J1,K1");
 }
