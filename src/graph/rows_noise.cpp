@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "graph/float_math.hpp"
@@ -43,9 +44,10 @@ float fade(float t) noexcept { return (((6.0F * t - 15.0F) * t) + 10.0F) * ((t *
 
 float lerp(float t, float a, float b) noexcept { return a + t * (b - a); }
 
-/// v, or -v where the bit of h is set.
-float flipped(float v, std::uint32_t h, std::uint32_t bit) noexcept {
-  return (h & bit) != 0 ? -v : v;
+/// v, or -v where the bit (its number) of h is set.
+float flipped(float v, std::uint32_t h, unsigned bit) noexcept {
+  const std::uint32_t sign = (h << (31U - bit)) & 0x80000000U;
+  return std::bit_cast<float>(std::bit_cast<std::uint32_t>(v) ^ sign);
 }
 
 /// Eight unit gradients at odd multiples of 22.5 degrees, none along an axis.
@@ -53,7 +55,7 @@ float gradient2(std::uint32_t hash, float x, float y) noexcept {
   const std::uint32_t h = hash >> 29;
   const float u = (h & 4U) != 0 ? y : x;
   const float v = (h & 4U) != 0 ? x : y;
-  return flipped(u, h, 1) * 0.923879533F + flipped(v, h, 2) * 0.382683432F;
+  return flipped(u, h, 0) * 0.923879533F + flipped(v, h, 1) * 0.382683432F;
 }
 
 /// The twelve edge directions of a cube, four of them twice.
@@ -62,7 +64,7 @@ float gradient3(std::uint32_t hash, float x, float y, float z) noexcept {
   const float u = h < 8 ? x : y;
   const float x_or_z = (h & 13U) == 12U ? x : z;  // 12 and 14
   const float v = h < 4 ? y : x_or_z;
-  return flipped(u, h, 1) + flipped(v, h, 2);
+  return flipped(u, h, 0) + flipped(v, h, 1);
 }
 
 float perlin2(float px, float py, std::uint32_t seed) noexcept {
@@ -239,7 +241,7 @@ float unity_gradient(std::uint32_t hash, float x, float y) noexcept {
   const float u = h < 8 ? x : y;
   const float x_or_zero = (h & 13U) == 12U ? x : 0.0F;
   const float v = h < 4 ? y : x_or_zero;
-  return flipped(u, h, 1) + flipped(v, h, 2);
+  return flipped(u, h, 0) + flipped(v, h, 1);
 }
 
 float unity2(float px, float py) noexcept {

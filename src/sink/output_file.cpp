@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <stdio.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -14,33 +13,21 @@
 #include <climits>
 #include <cstdlib>
 #include <random>
-#include <system_error>
-#include <utility>
 #include <vector>
 
 #include "mc/base.hpp"
+#include "sink/file_writer.hpp"
 #include "sink/partial_names.hpp"
 
 // The file layer below every sink. Guarantees: a regular file appears under its name only when it
 // is complete; whatever fails before that leaves no trace; every failed system call comes out as
-// Error(output) with the system's text. Bytes go through one buffer, large pieces past it.
+// Error(output) with the system's text.
 
 namespace mc::sink {
 
 namespace {
 
-constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 constexpr mode_t kNewFileMode = 0666;  // less the umask
-
-std::string system_text(int error) { return std::generic_category().message(error); }
-
-/// Says that a system call failed. errno is read first, so call it with nothing in between.
-[[noreturn]] void cannot(std::string_view verb, const std::string& place,
-                         std::string_view remedy = {}) {
-  const int error = errno;
-  throw Error(ErrorKind::output, place,
-              std::string("cannot ").append(verb).append(": ").append(system_text(error)), remedy);
-}
 
 [[noreturn]] void refuse_existing(const std::string& place) {
   throw Error(ErrorKind::output, place, "exists", "add --force to replace it");
@@ -50,108 +37,6 @@ std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
 }
-
-/// A descriptor with a buffer before it. With `offsets` it writes by pwrite() at its own position,
-/// so that write_at() does not disturb appending.
-class Writer {
- public:
-  Writer(int fd, bool offsets, std::string place)
-      : fd_(fd), offsets_(offsets), place_(std::move(place)) {}
-  ~Writer() {
-    if (fd_ > STDERR_FILENO) {
-      ::close(fd_);
-    }
-  }
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-
-  [[nodiscard]] int fd() const { return fd_; }
-  [[nodiscard]] std::uint64_t size() const { return flushed_ + buffer_.size(); }
-  [[nodiscard]] const std::string& place() const { return place_; }
-
-  void append(std::span<const std::byte> bytes) {
-    if (buffer_.size() + bytes.size() > kBufferBytes) {
-      flush();
-    }
-    if (bytes.size() >= kBufferBytes) {
-      put(flushed_, bytes);
-      flushed_ += bytes.size();
-      return;
-    }
-    if (buffer_.capacity() == 0) {
-      buffer_.reserve(kBufferBytes);
-    }
-    buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
-  }
-
-  void flush() {
-    put(flushed_, buffer_);
-    flushed_ += buffer_.size();
-    buffer_.clear();
-  }
-
-  void write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
-    assert(offsets_);
-    if (offset + bytes.size() > flushed_ && offset < size()) {
-      flush();  // else the buffer would later overwrite them
-    }
-    put(offset, bytes);
-  }
-
-  void skip(std::uint64_t n_bytes) {
-    assert(offsets_);
-    flush();
-    flushed_ += n_bytes;
-  }
-
-  void read(std::uint64_t offset, std::span<std::byte> bytes) {
-    flush();
-    while (!bytes.empty()) {
-      const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-      if (n < 0 && errno == EINTR) {
-        continue;
-      }
-      if (n <= 0) {
-        errno = n == 0 ? EIO : errno;  // what was written is no longer there
-        cannot("read back", place_);
-      }
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-      offset += static_cast<std::uint64_t>(n);
-    }
-  }
-
-  /// Closes; a network file system may only now say that it is full.
-  void close() {
-    flush();
-    const int fd = std::exchange(fd_, -1);
-    if (fd > STDERR_FILENO && ::close(fd) != 0 && errno != EINTR) {
-      cannot("write", place_);
-    }
-  }
-
- private:
-  void put(std::uint64_t offset, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-      const ssize_t n = offsets_
-                            ? ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset))
-                            : ::write(fd_, bytes.data(), bytes.size());
-      if (n < 0 && errno == EINTR) {
-        continue;
-      }
-      if (n < 0) {
-        cannot("write", place_);
-      }
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-      offset += static_cast<std::uint64_t>(n);
-    }
-  }
-
-  int fd_;
-  bool offsets_;
-  std::string place_;
-  std::uint64_t flushed_ = 0;  // where the buffer will go
-  Buffer<std::byte> buffer_;
-};
 
 /// The file that `path` names in the end, which need not exist.
 std::string followed(const std::string& path) {
@@ -210,7 +95,7 @@ struct OutputFile::State {
   std::string target;   // what is replaced in the end; empty when written in place
   std::string partial;  // likewise
   bool done = false;
-  std::unique_ptr<Writer> writer;
+  std::unique_ptr<FileWriter> writer;
 
   void open(const std::string& path, const std::string& place);
   void open_in_place(const std::string& path, const std::string& place);
@@ -219,12 +104,16 @@ struct OutputFile::State {
 };
 
 void OutputFile::State::open_in_place(const std::string& path, const std::string& place) {
-  const int fd =
-      path == "-" ? STDOUT_FILENO : ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  int fd = STDOUT_FILENO;
+  if (path != "-") {
+    do {  // a FIFO waits for its reader here
+      fd = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    } while (fd < 0 && errno == EINTR);
+  }
   if (fd < 0) {
     cannot("open", place);
   }
-  writer = std::make_unique<Writer>(fd, false, place);
+  writer = std::make_unique<FileWriter>(fd, false, place);
   if (options.binary && !options.force && ::isatty(fd) == 1) {
     throw Error(ErrorKind::output, place, "is a terminal, and the output is binary",
                 "redirect it, name a file, or add --force");
@@ -250,9 +139,9 @@ void OutputFile::State::open(const std::string& path, const std::string& place) 
   target = followed(path);
   const int fd = create_partial(target, place, partial);
   register_partial(partial);
-  writer = std::make_unique<Writer>(fd, true, place);
-  if (exists && ::fchmod(fd, status.st_mode & 07777) != 0) {
-    cannot("keep the permissions", place);
+  writer = std::make_unique<FileWriter>(fd, true, place);
+  if (exists) {  // some file systems have no permissions to keep
+    static_cast<void>(::fchmod(fd, status.st_mode & 07777));
   }
 }
 
@@ -327,8 +216,9 @@ void OutputFile::skip(std::uint64_t n_bytes) { state_->writer->skip(n_bytes); }
 
 void OutputFile::shift(std::uint64_t offset, std::uint64_t n_bytes) {
   assert(offset <= size());
-  Writer& writer = *state_->writer;
-  Buffer<std::byte> block(kBufferBytes);
+  FileWriter& writer = *state_->writer;
+  Buffer<std::byte> block(
+      static_cast<std::size_t>(std::min<std::uint64_t>(kBufferBytes, size() - offset)));
   std::uint64_t end = size();  // from the end down, as the two places overlap
   writer.skip(n_bytes);
   while (end > offset) {
@@ -370,79 +260,6 @@ void OutputFile::commit_all(std::initializer_list<OutputFile*> files) {
   }
   for (OutputFile* file : files) {
     file->state_->done = true;
-  }
-}
-
-struct SpoolFile::State {
-  std::unique_ptr<Writer> writer;
-  void* mapping = nullptr;
-  std::size_t mapped = 0;
-
-  State() = default;
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() { unmap(); }
-  void unmap() {
-    if (mapping != nullptr) {
-      ::munmap(std::exchange(mapping, nullptr), mapped);
-    }
-  }
-};
-
-SpoolFile::SpoolFile(const OutputFile& beside) : state_(std::make_unique<State>()) {
-  const std::string folder = beside.scratch_folder();
-  int fd = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
-  if (fd < 0) {  // not every file system has files without a name
-    std::string name = folder + "/.mc-spool-XXXXXX";
-    fd = ::mkostemp(name.data(), O_CLOEXEC);
-    if (fd >= 0) {
-      ::unlink(name.c_str());
-    }
-  }
-  const std::string place = folder + " (temporary file)";
-  if (fd < 0) {
-    cannot("create", place,
-           beside.seekable() ? "choose a folder that can be written"
-                             : "point TMPDIR at a folder that can be written");
-  }
-  state_->writer = std::make_unique<Writer>(fd, true, place);
-}
-
-SpoolFile::~SpoolFile() = default;
-
-void SpoolFile::append(std::span<const std::byte> bytes) { state_->writer->append(bytes); }
-
-std::uint64_t SpoolFile::size() const { return state_->writer->size(); }
-
-std::span<const std::byte> SpoolFile::map() {
-  state_->unmap();
-  state_->writer->flush();
-  const std::uint64_t n_bytes = size();
-  if (n_bytes == 0) {
-    return {};
-  }
-  state_->mapped = static_cast<std::size_t>(n_bytes);
-  void* mapping = ::mmap(nullptr, state_->mapped, PROT_READ, MAP_SHARED, state_->writer->fd(), 0);
-  if (mapping == MAP_FAILED) {
-    cannot("map", state_->writer->place());
-  }
-  state_->mapping = mapping;
-  return {static_cast<const std::byte*>(mapping), state_->mapped};
-}
-
-void SpoolFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
-  assert(offset + bytes.size() <= size());
-  state_->writer->read(offset, bytes);
-}
-
-void SpoolFile::copy_to(OutputFile& out) {
-  Buffer<std::byte> block(kBufferBytes);
-  const std::uint64_t n_bytes = size();
-  for (std::uint64_t at = 0; at < n_bytes; at += block.size()) {
-    const std::span<std::byte> part = std::span(block).first(
-        static_cast<std::size_t>(std::min<std::uint64_t>(n_bytes - at, block.size())));
-    read(at, part);
-    out.append(part);
   }
 }
 

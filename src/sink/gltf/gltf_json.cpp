@@ -99,7 +99,7 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
   tinygltf::Scene scene;
   for (const GltfObject& object : objects) {
     tinygltf::Node node;
-    node.name = utf8(object.name);
+    node.name = object.name.empty() ? "object" : utf8(object.name);  // never a node of nothing
     if (object.origin != Vec3{}) {
       node.translation.assign(object.origin.begin(), object.origin.end());
     }

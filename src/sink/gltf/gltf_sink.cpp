@@ -260,8 +260,9 @@ void GltfSink::write(const MeshChunk& chunk) {
 /// Appends the spooled indices to the buffer, in the type that turned out to fit.
 void GltfSink::take_spooled_indices() {
   const bool is_short = objects_.back().has_short_indices();
-  Buffer<std::uint32_t> ids(kBlockBytes / sizeof(std::uint32_t));
   const std::uint64_t n_ids = 3 * counts_.n_triangles;
+  Buffer<std::uint32_t> ids(static_cast<std::size_t>(
+      std::min<std::uint64_t>(kBlockBytes / sizeof(std::uint32_t), n_ids)));
   for (std::uint64_t first = 0; first < n_ids; first += ids.size()) {
     const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(ids.size(), n_ids - first));
     const std::span<std::uint32_t> part = std::span(ids).first(n);

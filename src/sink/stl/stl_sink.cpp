@@ -138,7 +138,7 @@ void StlSink::end_object(const MeshTotals& /*totals*/) {
 template <class Each>
 void StlSink::for_facets(Each each) {
   const std::span<const std::byte> positions = positions_->map();
-  constexpr std::size_t kPerBlock = kBlockBytes / sizeof(std::array<std::uint32_t, 3>);
+  constexpr std::size_t kPerBlock = (std::size_t{64} << 10) / sizeof(std::array<std::uint32_t, 3>);
   Buffer<std::array<std::uint32_t, 3>> ids(kPerBlock);
   std::array<Triple, 3> corner{};
   for (std::uint64_t first = 0; first < counts_.n_triangles; first += kPerBlock) {

@@ -333,10 +333,10 @@ std::string pointer_to(const JsonValue& root, const JsonValue& target) {
         at->members.begin(), at->members.end(), target.offset,
         [](std::size_t offset, const JsonMember& m) { return offset < m.value.offset; });
     if (item != at->items.begin()) {
-      path += "/" + std::to_string(std::distance(at->items.begin(), item) - 1);
+      path.append("/").append(std::to_string(std::distance(at->items.begin(), item) - 1));
       at = &*std::prev(item);
     } else if (member != at->members.begin()) {
-      path += "/" + escaped(std::prev(member)->key);
+      path.append("/").append(escaped(std::prev(member)->key));
       at = &std::prev(member)->value;
     } else {
       return path;  // not below the root

@@ -30,7 +30,7 @@ constexpr std::uint64_t kNone = kOutOfRange;
 /// Nodes may repeat a mesh, so a small file may stand for a large one. It is refused when it grows
 /// past this many times the bytes it is made of.
 constexpr std::uint64_t kMostGrowth = 256;
-constexpr std::uint64_t kPrimitiveCost = 64;  // vertices; bounds the time that empty ones take
+constexpr std::uint64_t kPrimitiveCost = 256;  // vertices; bounds the time that empty ones take
 
 /// Row by row, the last column is the translation.
 struct Transform {
@@ -157,12 +157,11 @@ class GltfReader {
   /// Element `n` of a list at the root, which must be an object.
   [[nodiscard]] const json& item(const char* key, std::uint64_t n) const {
     const json& all = list(root_, key, "");
-    const std::string pointer = pointer_to(key, n);
     if (n >= all.size()) {
-      fail(pointer, "is named, but there are " + std::to_string(all.size()));
+      fail(pointer_to(key, n), "is named, but there are " + std::to_string(all.size()));
     }
     if (!all[n].is_object()) {
-      fail(pointer, "expected an object");
+      fail(pointer_to(key, n), "expected an object");
     }
     return all[n];
   }

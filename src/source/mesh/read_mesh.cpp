@@ -31,8 +31,9 @@ bool is_obj_statement(std::string_view word) {
   return std::ranges::find(kStatements, word) != kStatements.end();
 }
 
-bool starts_as_stl_text(std::string_view text, std::string_view word) {
-  return word == "solid" && text.find('\0') == std::string_view::npos;
+/// Whether it starts without a zero byte, as no text has and few binary files lack.
+bool starts_as_text(std::string_view text) {
+  return text.substr(0, 4096).find('\0') == std::string_view::npos;
 }
 
 }  // namespace
@@ -54,18 +55,19 @@ MeshSoup parse_mesh(const MeshInput& input, std::string_view extension) {
     return read_stl_binary(input);
   }
   const std::string_view word = first_word(input);
-  if (starts_as_stl_text(text, word)) {
+  const bool is_text = starts_as_text(text);
+  if (is_text && word == "solid") {
     return read_stl_ascii(input);
   }
   if (word.starts_with('{') || extension == ".gltf") {
     return read_gltf(input);
   }
+  const bool only_comments = word.empty() && text.find('#') != std::string_view::npos;
+  if ((is_text && (is_obj_statement(word) || only_comments)) || extension == ".obj") {
+    return read_obj(input);
+  }
   if (extension == ".stl") {
     return read_stl_binary(input);
-  }
-  const bool only_comments = word.empty() && text.find('#') != std::string_view::npos;
-  if (is_obj_statement(word) || only_comments || extension == ".obj") {
-    return read_obj(input);
   }
   throw Error(ErrorKind::input, input.place,
               "is no mesh of a known format: " + std::string(kKnownMeshes));

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""The include law: which room may see which, and the one door of each library.
+
+    includes.py [ROOT]
+
+Reads every source below ROOT/include and ROOT/src (default: this tree), prints one line for each
+forbidden include, and ends with 1 if there was any. Tests may include what they like.
+"""
+
+import fnmatch
+import pathlib
+import re
+import sys
+
+# room: rooms it may include, besides itself.
+ROOMS = {
+    "base": "",
+    "field": "base",
+    "graph": "base field",
+    "edit": "base field graph",
+    "mesh": "base",
+    "extract": "base field mesh",
+    "pipe": "base field edit extract mesh",
+    "source": "base field graph edit mesh",
+    "sink": "base field mesh",
+    "cli": "base field graph edit mesh extract pipe source sink",
+}
+CORE = {"base", "field", "graph", "edit", "mesh", "extract", "pipe"}
+
+# Public headers that the core does not see: it knows no file format.
+IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp"}
+
+# include pattern: the files below src/ that are the library's door.
+DOORS = {
+    "openvdb/*": ["source/vdb/*", "sink/vdb/*"],
+    "OpenEXR/*": ["source/exr/*", "sink/exr/*"],
+    "Imf*": ["source/exr/*", "sink/exr/*"],
+    "tiny_gltf*": ["sink/gltf/*"],
+    "nlohmann/*": ["source/json/*", "source/mesh/*", "sink/gltf/*", "cli/*"],
+    "CLI/*": ["cli/*"],
+    "tbb/*": ["base/parallel.cpp"],
+    "oneapi/tbb*": ["base/parallel.cpp"],
+    "hwy/*": ["*_simd.cpp", "*-inl.hpp"],
+    "fmt/*": ["*"],
+    "meshoptimizer.h": ["mesh/*", "sink/gltf/*"],
+    "zlib.h": ["source/*"],
+}
+
+# What a system brings without a library: the C++ and C headers have no suffix or are listed.
+SYSTEM = re.compile(
+    r"[a-z_0-9]+|(sys|linux|asm)/[a-z_0-9]+\.h|"
+    r"(dirent|errno|fcntl|glob|malloc|poll|pthread|sched|signal|spawn|stdio|termios|time|unistd)\.h"
+)
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')
+
+
+def library_fault(path, name):
+    """Why the file `path`, relative to src/, may not include the library header `name`."""
+    for pattern, doors in DOORS.items():
+        if fnmatch.fnmatchcase(name, pattern):
+            if any(fnmatch.fnmatchcase(path, door) for door in doors):
+                return None
+            return f"its door is {' or '.join('src/' + door for door in doors)}"
+    if SYSTEM.fullmatch(name):
+        return None
+    return "unknown library: give it a door in scripts/includes.py"
+
+
+def source_fault(path, quote, name):
+    """Why the file `path`, relative to src/, may not include `name`; None if it may."""
+    room = path.split("/")[0]
+    if room not in ROOMS:
+        return f"src/{room} is no room: it has no line in scripts/includes.py"
+    if name.startswith("mc/"):
+        if room in CORE and name in IO_HEADERS:
+            return f"room {room} is of the core, which knows no file format"
+        return None
+    target = name.split("/")[0]
+    if target in ROOMS:
+        if target == room or target in ROOMS[room].split():
+            return None
+        return f"room {room} may include {ROOMS[room] or 'no other room'}"
+    if quote == '"' and not any(fnmatch.fnmatchcase(name, p) for p in DOORS):
+        return 'write "room/file.hpp", from src/'
+    return library_fault(path, name)
+
+
+def public_fault(_path, _quote, name):
+    """Why a public header may not include `name`."""
+    if re.fullmatch(r"mc/[a-z_]+\.hpp|[a-z_0-9]+", name):
+        return None
+    return "public headers include the standard library and mc/ only"
+
+
+def faults(root):
+    for folder, fault in (("include", public_fault), ("src", source_fault)):
+        for file in sorted((root / folder).rglob("*")):
+            if file.suffix not in {".hpp", ".cpp", ".h", ".inl"}:
+                continue
+            path = file.relative_to(root / folder).as_posix()
+            lines = file.read_text(encoding="utf-8").splitlines()
+            for number, line in enumerate(lines, start=1):
+                match = INCLUDE.match(line)
+                why = match and fault(path, match[1], match[2])
+                if why:
+                    yield f"{folder}/{path}:{number}: forbidden include {match[2]}: {why}"
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parent.parent
+    root = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else here
+    if not (root / "src").is_dir():
+        sys.exit(f"includes.py: {root}: has no src/")
+    found = list(faults(root))
+    for line in found:
+        print(line)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

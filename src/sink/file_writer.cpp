@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "sink/file_writer.hpp"
+
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include "mc/base.hpp"
+
+// Interrupted calls and short writes are taken up again; everything else is an Error.
+
+namespace mc::sink {
+
+void cannot(std::string_view verb, const std::string& place, std::string_view remedy) {
+  const int error = errno;
+  throw Error(ErrorKind::output, place,
+              std::string("cannot ").append(verb).append(": ").append(
+                  std::generic_category().message(error)),
+              remedy);
+}
+
+FileWriter::FileWriter(int fd, bool offsets, std::string place)
+    : fd_(fd), offsets_(offsets), place_(std::move(place)) {}
+
+FileWriter::~FileWriter() {
+  if (fd_ > STDERR_FILENO) {
+    ::close(fd_);
+  }
+}
+
+void FileWriter::append(std::span<const std::byte> bytes) {
+  if (bytes.empty()) {
+    return;
+  }
+  if (buffered_ + bytes.size() > kBufferBytes) {
+    flush();
+  }
+  if (bytes.size() >= kBufferBytes) {
+    put(flushed_, bytes);
+    flushed_ += bytes.size();
+    return;
+  }
+  if (!buffer_) {
+    buffer_ = std::make_unique_for_overwrite<std::byte[]>(kBufferBytes);
+  }
+  std::memcpy(buffer_.get() + buffered_, bytes.data(), bytes.size());
+  buffered_ += bytes.size();
+}
+
+void FileWriter::flush() {
+  put(flushed_, {buffer_.get(), buffered_});
+  flushed_ += std::exchange(buffered_, 0);
+}
+
+void FileWriter::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+  assert(offsets_);
+  if (offset + bytes.size() > flushed_ && offset < size()) {
+    flush();  // else the buffer would later overwrite them
+  }
+  put(offset, bytes);
+}
+
+void FileWriter::skip(std::uint64_t n_bytes) {
+  assert(offsets_);
+  flush();
+  flushed_ += n_bytes;
+}
+
+void FileWriter::read(std::uint64_t offset, std::span<std::byte> bytes) {
+  assert(offsets_ && offset + bytes.size() <= size());
+  flush();
+  while (!bytes.empty()) {
+    const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (n < 0 && errno == EINTR) {
+      continue;
+    }
+    if (n <= 0) {
+      errno = n == 0 ? EIO : errno;  // what was written is no longer there
+      cannot("read back", place_);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
+void FileWriter::close() {
+  flush();
+  const int fd = std::exchange(fd_, -1);
+  if (fd > STDERR_FILENO && ::close(fd) != 0 && errno != EINTR) {
+    cannot("write", place_);
+  }
+}
+
+void FileWriter::put(std::uint64_t offset, std::span<const std::byte> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = offsets_
+                          ? ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset))
+                          : ::write(fd_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) {
+      continue;
+    }
+    if (n < 0) {
+      cannot("write", place_);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(n));
+    offset += static_cast<std::uint64_t>(n);
+  }
+}
+
+}  // namespace mc::sink

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+#include "extract/simd_target.hpp"
+#include "support/memory_readers.hpp"
+#include "support/mesh_collector.hpp"
+#include "support/random_fields.hpp"
+#include "support/reference_extractor.hpp"
+
+// The dense engine against the reference, bit for bit.
+
+namespace mc::test {
+namespace {
+
+void expect_same(const Mesh& got, const Mesh& want) {
+  ASSERT_EQ(got.positions.size(), want.positions.size());
+  ASSERT_EQ(std::memcmp(got.positions.data(), want.positions.data(),
+                        want.positions.size() * sizeof(want.positions[0])),
+            0);
+  ASSERT_EQ(got.triangles, want.triangles);
+  ASSERT_EQ(got.normals.size(), want.normals.size());
+  for (std::size_t n = 0; n < want.normals.size(); ++n) {
+    ASSERT_EQ(std::memcmp(&got.normals[n], &want.normals[n], sizeof(want.normals[n])), 0)
+        << "normal " << n << ": " << got.normals[n][0] << " " << got.normals[n][1] << " "
+        << got.normals[n][2] << " but " << want.normals[n][0] << " " << want.normals[n][1] << " "
+        << want.normals[n][2];
+  }
+}
+
+const Affine kSkewed{{1.5, 0.25, 0, 10, 0, 2, 0.5, -20, 0.125, 0, 3, 30}};
+const Affine kMirrored{{-1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 5}};
+
+template <class T>
+void compare_all(Index3 dims, const std::vector<How>& hows) {
+  std::uint64_t seed = 1;
+  for (const Noise noise : {Noise::white, Noise::plateaus, Noise::with_nan, Noise::smooth}) {
+    for (const Border border : {Border::open, Border::closed, Border::solid}) {
+      for (const Inside inside : {Inside::above, Inside::below}) {
+        for (const Normals normals : {Normals::none, Normals::gradient, Normals::face}) {
+          const auto samples = random_field<T>(dims, noise, ++seed);
+          ExtractOptions o;
+          o.iso = test_iso<T>();
+          o.inside = inside;
+          o.border = border;
+          o.normals = normals;
+          const Affine& map = seed % 2 == 0 ? kSkewed : kMirrored;
+          const Mesh want = reference_extract(samples, dims, o, map);
+          const MemorySlabs::Layout layout{
+              .to_world = map,
+              .endian = seed % 3 == 0 ? std::endian::big : std::endian::little,
+              .row_padding = seed % 4,
+              .lead = seed % 2};
+          const VolumeReader reader =
+              owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, dims, layout)));
+          for (const How& how : hows) {
+            SCOPED_TRACE(testing::Message() << "seed " << seed << " threads " << how.threads
+                                            << " layers " << how.slab_layers);
+            expect_same(collect(reader, o, how).mesh, want);
+            if (testing::Test::HasFatalFailure()) return;
+          }
+        }
+      }
+    }
+  }
+}
+
+template <class T>
+class DenseEngine : public testing::Test {};
+using SampleTypes = testing::Types<std::uint8_t, std::int8_t, std::uint16_t, std::int16_t,
+                                   std::uint32_t, std::int32_t, std::int64_t, Half, float, double>;
+TYPED_TEST_SUITE(DenseEngine, SampleTypes);
+
+TYPED_TEST(DenseEngine, EqualsTheReference) {
+  compare_all<TypeParam>({9, 6, 7}, {{1, 0, false}, {2, 1, false}});
+}
+
+TYPED_TEST(DenseEngine, EqualsTheReferenceInRowsOfSeveralWords) {
+  compare_all<TypeParam>({131, 4, 3}, {{1, 1, false}});
+}
+
+TEST(DenseEngineFloat, DoesNotDependOnThreadsOrSlabs) {
+  std::vector<How> hows;
+  for (const int threads : {1, 2, 3, 7}) {
+    for (const std::int32_t layers : {1, 2, 3, 5, 0}) hows.push_back({threads, layers, false});
+  }
+  compare_all<float>({12, 11, 13}, hows);
+}
+
+TEST(DenseEngineFloat, RowEndsAtEveryPlaceInAWord) {
+  for (std::int32_t nx = 2; nx <= 130; ++nx) {
+    const auto samples =
+        random_field<float>({nx, 3, 3}, Noise::white, static_cast<std::uint64_t>(nx));
+    for (const Border border : {Border::open, Border::closed}) {
+      ExtractOptions o;
+      o.iso = 0.25;
+      o.border = border;
+      const Mesh want = reference_extract(samples, {nx, 3, 3}, o);
+      const VolumeReader reader =
+          owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, Index3{nx, 3, 3})));
+      expect_same(collect(reader, o).mesh, want);
+      ASSERT_FALSE(HasFatalFailure()) << nx;
+    }
+  }
+}
+
+TEST(DenseEngineFloat, EverySimdTargetGivesTheSameBytes) {
+  for (const std::string& target : extraction::simd_targets()) {
+    SCOPED_TRACE(target);
+    ASSERT_TRUE(extraction::set_simd_target(target));
+    compare_all<float>({70, 5, 4}, {{1, 0, false}});
+    compare_all<std::uint8_t>({133, 3, 3}, {{1, 0, false}});
+    compare_all<std::int16_t>({70, 3, 3}, {{1, 0, false}});
+    compare_all<std::uint16_t>({70, 3, 3}, {{1, 0, false}});
+    compare_all<std::uint32_t>({70, 3, 3}, {{1, 0, false}});
+    compare_all<std::int64_t>({70, 3, 3}, {{1, 0, false}});
+    compare_all<Half>({70, 3, 3}, {{1, 0, false}});
+    compare_all<double>({70, 3, 3}, {{1, 0, false}});
+  }
+  extraction::reset_simd_target();
+  EXPECT_FALSE(extraction::set_simd_target("neon9"));
+}
+
+TEST(DenseEngineFloat, InterpolationOptions) {
+  const Index3 dims{6, 7, 5};
+  const auto samples = random_field<float>(dims, Noise::white, 5);
+  const VolumeReader reader = owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, dims)));
+  ExtractOptions o;
+  o.iso = 0.25;
+  o.interpolation = Interpolation::midpoint;
+  expect_same(collect(reader, o).mesh, reference_extract(samples, dims, o));
+  o.interpolation = Interpolation::linear;
+  o.cutoff = 0.3;
+  expect_same(collect(reader, o).mesh, reference_extract(samples, dims, o));
+  o.cutoff = 0;
+  o.min_edge = 0.125;
+  expect_same(collect(reader, o).mesh, reference_extract(samples, dims, o));
+  o.min_edge = 0;
+  o.origin = {100, 200, 300};
+  expect_same(collect(reader, o).mesh, reference_extract(samples, dims, o));
+}
+
+TEST(DenseEngineFloat, RegionIsAVolumeOfItsOwn) {
+  const Index3 dims{20, 14, 11};
+  const auto samples = random_field<float>(dims, Noise::white, 6);
+  const VolumeReader reader = owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, dims)));
+  for (const Border border : {Border::open, Border::closed}) {
+    for (const Normals normals : {Normals::gradient, Normals::face}) {
+      ExtractOptions o;
+      o.iso = 0.25;
+      o.border = border;
+      o.normals = normals;
+      o.region = IndexBox{{3, 2, 4}, {17, 9, 8}};
+      expect_same(collect(reader, o, {2, 1, false}).mesh, reference_extract(samples, dims, o));
+    }
+  }
+}
+
+TEST(DenseEngineFloat, CountsBeforeEqualCountsAfter) {
+  const Index3 dims{40, 30, 20};
+  const auto samples = random_field<float>(dims, Noise::white, 7);
+  const VolumeReader reader = owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, dims)));
+  ExtractOptions o;
+  o.iso = 0.25;
+  const Collected got = collect(reader, o, {2, 3, true});
+  EXPECT_EQ(got.object.n_vertices, got.mesh.positions.size());
+  EXPECT_EQ(got.object.n_triangles, got.mesh.triangles.size());
+  EXPECT_EQ(got.totals.n_vertices, got.mesh.positions.size());
+  EXPECT_EQ(got.totals.n_triangles, got.mesh.triangles.size());
+  EXPECT_EQ(got.n_objects, 1);
+}
+
+TEST(DenseEngineFloat, DoublePrecisionRoundsToTheSingleOne) {
+  const Index3 dims{10, 9, 8};
+  const auto samples = random_field<float>(dims, Noise::white, 8);
+  const VolumeReader reader =
+      owned(std::unique_ptr<SlabReader>(new MemorySlabs(samples, dims, kSkewed)));
+  ExtractOptions o;
+  o.iso = 0.25;
+  const Collected single = collect(reader, o);
+  o.precision = Precision::f64;
+  const Collected twice = collect(reader, o);
+  ASSERT_EQ(twice.positions_f64.size(), single.mesh.positions.size());
+  for (std::size_t n = 0; n < twice.positions_f64.size(); ++n) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      EXPECT_EQ(static_cast<float>(twice.positions_f64[n][a]), single.mesh.positions[n][a]);
+    }
+  }
+  EXPECT_EQ(twice.mesh.normals, single.mesh.normals);
+}
+
+}  // namespace
+}  // namespace mc::test
