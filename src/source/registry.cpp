@@ -12,21 +12,9 @@
 #include "source/nrrd/nrrd.hpp"
 #include "source/placement.hpp"
 #include "source/raw/raw.hpp"
+#include "source/spec/spec.hpp"
 #include "source/text.hpp"
 #include "source/vdb/vdb.hpp"
-
-#if __has_include("source/spec/spec.hpp")
-#include "source/spec/spec.hpp"
-#else
-namespace mc::source {
-namespace {
-bool looks_like_spec(std::string_view /*head*/) { return false; }
-std::unique_ptr<SlabReader> open_spec(const std::string& path) {
-  throw Error(ErrorKind::input, path, "mc-volume is not supported by this version");
-}
-}  // namespace
-}  // namespace mc::source
-#endif
 
 // What an input is, and who reads it. Decided by --from, then by --dims with --type (raw), then by
 // content, then by extension.

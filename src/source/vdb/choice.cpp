@@ -39,7 +39,7 @@ std::size_t find_grid(std::span<const VdbGrid> grids, const std::string& wanted,
   const auto at = [&](auto&& matches) {
     return static_cast<std::size_t>(std::ranges::find_if(grids, matches) - grids.begin());
   };
-  std::size_t found = at([&](const VdbGrid& g) { return g.shown_name() == wanted; });
+  std::size_t found = at([&](const VdbGrid& g) { return g.numbered_name() == wanted; });
   if (found == grids.size()) {
     found = at([&](const VdbGrid& g) { return g.name == wanted; });
   }

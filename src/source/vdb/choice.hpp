@@ -22,9 +22,9 @@ namespace mc::source {
 
 [[nodiscard]] VolumeClass volume_class(const VdbGrid& grid);
 
-/// The grid that `wanted` names: as shown ("density[1]"), by its plain name (the first of that
-/// name), or "#n" by position. Without `wanted` the first scalar grid.
-/// Errors   input: no grid of that name, none at all, none that can be meshed.
+/// The grid that `wanted` names: with its number ("density[1]"), by its plain name (the first of
+/// that name), or "#n" by position. Without `wanted` the first scalar grid. Errors   input: no grid
+/// of that name, none at all, none that can be meshed.
 [[nodiscard]] std::size_t choose_grid(std::span<const VdbGrid> grids,
                                       const std::optional<std::string>& wanted,
                                       std::string_view place);

@@ -64,9 +64,21 @@ VdbMetaMap read_meta_map(VdbCursor& cursor) {
   return map;
 }
 
-std::string VdbGrid::shown_name() const {
+std::string VdbGrid::numbered_name() const {
   const std::size_t at = unique_name.find(kNumberFollows);
   return at == std::string::npos ? name : fmt::format("{}[{}]", name, unique_name.substr(at + 1));
+}
+
+std::string VdbGrid::shown_name() const { return shares_name ? numbered_name() : name; }
+
+void mark_shared_names(std::vector<VdbGrid>& grids) {
+  std::map<std::string_view, int> n_of_name;
+  for (const VdbGrid& grid : grids) {
+    ++n_of_name[grid.name];
+  }
+  for (VdbGrid& grid : grids) {
+    grid.shares_name = n_of_name[grid.name] > 1;
+  }
 }
 
 bool VdbGrid::standard_tree() const {

@@ -51,7 +51,8 @@ VdbMetaMap read_meta_map(VdbCursor& cursor);
 struct VdbGrid {
   std::string unique_name;  ///< with 0x1E and a number where several grids share a name
   std::string name;
-  std::string tree_type;  ///< "Tree_float_5_4_3", without the suffix for half
+  bool shares_name = false;  ///< with another grid of the file
+  std::string tree_type;     ///< "Tree_float_5_4_3", without the suffix for half
   bool as_half = false;
   std::string instance_of;  ///< unique name of the grid whose tree this one shares
   std::size_t begin = 0;    ///< offset of its compression flags
@@ -60,8 +61,10 @@ struct VdbGrid {
   std::uint32_t compression = 0;
   VdbMetaMap meta;
 
-  /// "density[0]" where several share the name.
+  /// "density[0]" where several share the name, else "density".
   [[nodiscard]] std::string shown_name() const;
+  /// The same with the number wherever the file has one: OpenVDB numbers nameless grids always.
+  [[nodiscard]] std::string numbered_name() const;
   /// "float", "vec3s", "ptdataidx32"; the whole of tree_type where it is not 5-4-3.
   [[nodiscard]] std::string type_name() const;
   [[nodiscard]] bool standard_tree() const;
@@ -69,6 +72,9 @@ struct VdbGrid {
   [[nodiscard]] std::optional<std::int64_t> meta_int64(std::string_view key) const;
   [[nodiscard]] std::optional<std::array<std::int32_t, 3>> meta_vec3i(std::string_view key) const;
 };
+
+/// Sets shares_name of all grids of a file.
+void mark_shared_names(std::vector<VdbGrid>& grids);
 
 struct VdbLayout {
   std::uint32_t file_version = 0;

@@ -214,11 +214,6 @@ class TreeReader final : public LeafReader {
     }
     collect_tiles(tree.root(), background_, tiles_);
     collect_leaves(tree);
-    if (leaves_.empty() && tiles_.empty()) {
-      throw Error(
-          ErrorKind::input, place,
-          fmt::format("grid {}: empty, it holds nothing but background", in_quotes(volume_.name)));
-    }
     volume_.n_active = tree.activeVoxelCount();
     volume_.lattice.box = extent(tree);
   }
@@ -314,6 +309,7 @@ class VdbFile {
       grids_.push_back(read_vdb_grid(bytes_, layout_, at, place_));
       at = layout_.has_offsets ? grids_.back().end : read_in_order(grids_.back());
     }
+    mark_shared_names(grids_);
   }
 
   [[nodiscard]] std::span<const VdbGrid> grids() const { return grids_; }

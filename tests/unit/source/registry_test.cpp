@@ -124,6 +124,18 @@ TEST(Registry, OptionsThatContradictTheFile) {
   EXPECT_EQ(error_of_open({file}, options), "2 --origin: three finite numbers were expected");
 }
 
+TEST(Registry, SpecsAreKnownByContentAndCanBePlaced) {
+  const Folder folder;
+  const std::string file =
+      folder.file("sphere", test::read_bytes(MC_SOURCE_DIR "/data/specs/sphere.json"));
+  EXPECT_EQ(volume_of(test::open({file}).reader).format, "spec");
+  SourceOptions options;
+  options.spacing = Vec3{1, 2, 3};
+  options.origin = Vec3{4, 5, 6};
+  EXPECT_EQ(volume_of(test::open({file}, options).reader).lattice.to_world,
+            Affine::scale_translate({1, 2, 3}, {4, 5, 6}));
+}
+
 TEST(Registry, DescribesDenseFiles) {
   const Folder folder;
   const std::vector<std::string> inputs{folder.file(
