@@ -24,7 +24,8 @@ inline float value_at(const Graph& graph, NodeId root, const Vec3& p) {
   return sampled(graph, root, p, {1, 1, 1}, {1, 1, 1}).front();
 }
 
-inline Node make(NodeType type, std::vector<NodeId> inputs = {}, std::array<float, 6> numbers = {}) {
+inline Node make(NodeType type, std::vector<NodeId> inputs = {},
+                 std::array<float, 6> numbers = {}) {
   Node node;
   node.type = type;
   node.inputs = std::move(inputs);

@@ -219,8 +219,8 @@ TEST(Graph, FormulasKeepTheirBits) {
     if (g.type == NodeType::fbm || g.type == NodeType::warp) {
       node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
     }
-    const auto values = sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83},
-                                {67, 9, 11});
+    const auto values =
+        sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83}, {67, 9, 11});
     EXPECT_EQ(hash_bits(values), g.hash) << g.name << " 0x" << std::hex << hash_bits(values);
   }
 }

@@ -71,8 +71,7 @@ TEST_P(Noises, AreContinuous) {
     float last = value_at(graph, id, start);
     for (int n = 1; n < 6000; ++n) {
       const double t = n / 1024.0;
-      const float now =
-          value_at(graph, id, {start[0] + t, start[1] + 0.7 * t, start[2] + 0.9 * t});
+      const float now = value_at(graph, id, {start[0] + t, start[1] + 0.7 * t, start[2] + 0.9 * t});
       ASSERT_LT(std::abs(now - last), 8.0 * 1.6 / 1024) << "at step " << n;
       last = now;
     }

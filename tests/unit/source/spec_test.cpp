@@ -166,11 +166,11 @@ TEST(SpecFaults, AllAreReportedAtOnceInTheOrderOfTheText) {
   EXPECT_THAT(faults_of("{\n \"format\": \"mc-volume\", \"version\": 2,\n \"seed\": -1,\n"
                         " \"grid\": {\"cells\": [0, 4, 4], \"spacing\": 0},\n \"feild\": 3}"),
               ElementsAre("v.json:1:1: has no \"field\": an mc-volume document needs it",
-                          "v.json:2:38: /version: is 2: expected 1",
+                          "v.json:2:36: /version: is 2: expected 1",
                           "v.json:3:10: /seed: is -1: expected an integer from 0 to 4294967295",
                           "v.json:4:21: /grid/cells/0: is 0: expected an integer from 1 to "
                           "2147483646",
-                          "v.json:4:43: /grid/spacing: is 0: expected a number above 0",
+                          "v.json:4:42: /grid/spacing: is 0: expected a number above 0",
                           "v.json:5:2: /feild: unknown key of an mc-volume document; did you mean "
                           "\"field\"?"));
 }
@@ -209,9 +209,9 @@ TEST(SpecFaults, ManyNodesAndLongChainsAreRefused) {
   for (int n = 0; n < 10001; ++n) {
     inputs += ",0";
   }
-  EXPECT_THAT(faults_of(document(R"("field": {"type": "add", "inputs": [)" + inputs + "]}")),
-              ElementsAre(testing::EndsWith(
-                  "is one node more than the 10000 that a document may hold")));
+  EXPECT_THAT(
+      faults_of(document(R"("field": {"type": "add", "inputs": [)" + inputs + "]}")),
+      ElementsAre(testing::EndsWith("is one node more than the 10000 that a document may hold")));
   EXPECT_THAT(faults_of(text_of(data_folder() / "corpus/spec/long-chain.json")),
               ElementsAre(testing::EndsWith("nodes nest deeper than 256 levels here")));
 }
