@@ -95,7 +95,7 @@ Decision decide(const InputFiles& inputs, const SourceOptions& options) {
     const std::optional<Format> format = format_named(options.from);
     if (!format) {
       throw Error(ErrorKind::usage, "--from",
-                  fmt::format("{} is no kind of input", in_quotes(options.from)),
+                  fmt::format("{} is no kind of input", quoted_text(options.from)),
                   "choose one of vdb, raw, nrrd, spec");
     }
     if (!is_readable(*format)) {

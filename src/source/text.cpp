@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-std::string in_quotes(std::string_view text) {
+std::string quoted_text(std::string_view text) {
   constexpr std::size_t kMost = 60;
   std::string out = "\"";
   for (const char c : text.substr(0, kMost)) {

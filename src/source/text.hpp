@@ -13,6 +13,6 @@ namespace mc::source {
 /// Without blanks, tabs and carriage returns at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// In quotes, for messages: at most 60 bytes, nothing that a terminal would obey.
-[[nodiscard]] std::string in_quotes(std::string_view text);
+[[nodiscard]] std::string quoted_text(std::string_view text);
 
 }  // namespace mc::source

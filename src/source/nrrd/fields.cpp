@@ -107,14 +107,14 @@ void NrrdFields::take_line(std::string_view line, std::size_t number) {
   }
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) {
-    throw fault(fmt::format("{}: \"field: value\" was expected", in_quotes(line)));
+    throw fault(fmt::format("{}: \"field: value\" was expected", quoted_text(line)));
   }
   if (line.substr(colon).starts_with(":=")) {
     return;  // a key of some program's own
   }
   const std::string name = field_name(line.substr(0, colon));
   if (std::ranges::find(kKnown, name) == kKnown.end()) {
-    unknown_.push_back(in_quotes(name));
+    unknown_.push_back(quoted_text(name));
     return;
   }
   const std::string_view value = trimmed(line.substr(colon + 1));

@@ -131,7 +131,7 @@ void set_type(const NrrdFields& fields, NrrdHeader& header) {
   if (!header.type) {
     fields.fail("type", fmt::format("samples of type {} cannot be read: 8- to 64-bit integers "
                                     "(not unsigned 64-bit), float and double can",
-                                    in_quotes(name)));
+                                    quoted_text(name)));
   }
   if (const auto endian = fields.find("endian")) {
     const std::string order = lower_case(*endian);
@@ -147,10 +147,10 @@ void set_type(const NrrdFields& fields, NrrdHeader& header) {
 void check_encoding(const NrrdFields& fields) {
   const std::string encoding = lower_case(fields.required("encoding"));
   if (encoding != "raw") {
-    fields.fail(
-        "encoding",
-        fmt::format("{} samples are not supported by this version, only raw", in_quotes(encoding)),
-        "convert the file, for example with: unu save -f nrrd -e raw -i IN -o OUT");
+    fields.fail("encoding",
+                fmt::format("{} samples are not supported by this version, only raw",
+                            quoted_text(encoding)),
+                "convert the file, for example with: unu save -f nrrd -e raw -i IN -o OUT");
   }
 }
 

@@ -64,7 +64,7 @@ DataFiles list_files(const NrrdHeader& header, const std::string& place) {
   if (pattern) {
     auto names = expand_nrrd_pattern(named);
     if (!names) {
-      wrong_files(place, fmt::format("{}: one %d was expected", in_quotes(named.pattern)));
+      wrong_files(place, fmt::format("{}: one %d was expected", quoted_text(named.pattern)));
     }
     out.names = std::move(*names);
   }

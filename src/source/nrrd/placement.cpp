@@ -126,7 +126,7 @@ void set_space(const NrrdFields& fields, NrrdHeader& header) {
              !is("3d-right-handed", "3d-left-handed")) {
     fields.fail("space", fmt::format("{}: a space of three axes was expected, such as "
                                      "right-anterior-superior",
-                                     in_quotes(space)));
+                                     quoted_text(space)));
   }
 }
 

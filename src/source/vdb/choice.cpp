@@ -18,7 +18,7 @@ std::string list_names(std::span<const VdbGrid> grids) {
   constexpr std::size_t kMost = 12;
   std::string out;
   for (const VdbGrid& grid : grids.first(std::min(kMost, grids.size()))) {
-    out += (out.empty() ? "" : ", ") + in_quotes(grid.shown_name());
+    out += (out.empty() ? "" : ", ") + quoted_text(grid.shown_name());
   }
   return grids.size() > kMost ? fmt::format("{} and {} more", out, grids.size() - kMost) : out;
 }
@@ -48,7 +48,7 @@ std::size_t find_grid(std::span<const VdbGrid> grids, const std::string& wanted,
   }
   if (found == grids.size()) {
     throw Error(ErrorKind::input, place,
-                fmt::format("no grid {}: it has {}", in_quotes(wanted), list_names(grids)),
+                fmt::format("no grid {}: it has {}", quoted_text(wanted), list_names(grids)),
                 "choose one with --grid NAME, NAME[n] or #n");
   }
   return found;
@@ -75,9 +75,9 @@ std::string refusal(const VdbGrid& grid) {
   }
   if (!grid.standard_tree()) {
     return fmt::format("tree of type {}, but only trees of 5-4-3 levels can be meshed",
-                       in_quotes(grid.type_name()));
+                       quoted_text(grid.type_name()));
   }
-  std::string type = in_quotes(grid.type_name());
+  std::string type = quoted_text(grid.type_name());
   return fmt::format("type {}, but only scalar grids can be meshed",
                      type.substr(1, type.size() - 2));
 }
@@ -106,7 +106,7 @@ std::size_t choose_grid(std::span<const VdbGrid> grids, const std::optional<std:
   }
   if (const std::string why = refusal(grids[chosen]); !why.empty()) {
     throw Error(ErrorKind::input, place,
-                fmt::format("grid {}: {}", in_quotes(grids[chosen].shown_name()), why));
+                fmt::format("grid {}: {}", quoted_text(grids[chosen].shown_name()), why));
   }
   return chosen;
 }

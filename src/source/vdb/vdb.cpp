@@ -102,7 +102,7 @@ std::optional<Affine> affine_of(const openvdb::math::Transform& transform) {
 }
 
 std::string naming(const VdbGrid& grid) {
-  return fmt::format("grid {}", in_quotes(grid.shown_name()));
+  return fmt::format("grid {}", quoted_text(grid.shown_name()));
 }
 
 /// Reads the transform at the stream's position.

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/fuzz_volumes.hpp"
+#include "support/source_files.hpp"
+
+// Every file that ever stood for a fault of a reader, or for a kind of file, is read again.
+
+namespace mc {
+namespace {
+
+/// Reads data/corpus/KIND and returns the names of the files that were readable.
+std::vector<std::string> readable(const std::string& kind) {
+  std::vector<std::string> names;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(MC_SOURCE_DIR "/data/corpus/" + kind)) {
+    const std::string bytes = test::read_bytes(entry.path().string());
+    if (test::open_and_read(kind, std::as_bytes(std::span(bytes)))) {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
+TEST(Corpus, Nrrd) {
+  EXPECT_EQ(readable("nrrd"),
+            (std::vector<std::string>{"attached_big_i16.nrrd", "attached_u8.nrrd"}));
+}
+
+#if MC_WITH_VDB
+TEST(Corpus, Vdb) {
+  EXPECT_EQ(readable("vdb"),
+            (std::vector<std::string>{"bool_zip.vdb", "float_level_set.vdb", "half_and_vectors.vdb",
+                                      "stream_no_offsets.vdb"}));
+}
+#endif
+
+TEST(Corpus, Raw) { EXPECT_EQ(readable("raw"), std::vector<std::string>{"u8_2x3.raw"}); }
+
+}  // namespace
+}  // namespace mc

@@ -1,0 +1,566 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#if MC_WITH_VDB
+
+#include <openvdb/io/Stream.h>
+#include <openvdb/openvdb.h>
+
+#include <chrono>
+#include <map>
+#include <random>
+#include <sstream>
+
+#include "support/source_files.hpp"
+
+// Files are written here with OpenVDB and read through the port; what leaves, tiles and background
+// say together must be what OpenVDB's own accessor says, sample by sample.
+
+namespace mc {
+namespace {
+
+using test::error_of_open;
+using test::Folder;
+using test::leaves;
+using test::open;
+
+void write(const std::string& path, const openvdb::GridPtrVec& grids) {
+  openvdb::io::File file(path);
+  file.write(grids);
+}
+
+/// The port as one lookup.
+class Lookup {
+ public:
+  explicit Lookup(const LeafReader& reader) : reader_(reader) {
+    for (std::size_t n = 0; n < reader.leaves().size(); ++n) {
+      leaf_at_[reader.leaves()[n]] = n;
+    }
+  }
+  [[nodiscard]] std::pair<double, bool> at(const Index3& p) const {
+    const SampleType type = reader_.volume().type;
+    const auto leaf = leaf_at_.find({p[0] & ~7, p[1] & ~7, p[2] & ~7});
+    if (leaf != leaf_at_.end()) {
+      alignas(8) std::array<std::byte, 512 * 8> scratch{};
+      const std::byte* values = reader_.leaf_values(leaf->second, scratch.data());
+      const auto n = static_cast<std::size_t>((p[0] & 7) * 64 + (p[1] & 7) * 8 + (p[2] & 7));
+      Scalar s;
+      std::memcpy(s.bytes.data(), values + n * sample_size(type), sample_size(type));
+      const std::uint64_t word = reader_.leaf_active(leaf->second)[n / 64];
+      return {to_double(s, type), ((word >> (n % 64)) & 1U) != 0};
+    }
+    for (const Tile& tile : reader_.tiles()) {
+      const IndexBox box{tile.origin,
+                         {tile.origin[0] + tile.size - 1, tile.origin[1] + tile.size - 1,
+                          tile.origin[2] + tile.size - 1}};
+      if (box.contains(p)) {
+        return {to_double(tile.value, type), tile.active};
+      }
+    }
+    return {to_double(reader_.background(), type), false};
+  }
+
+ private:
+  const LeafReader& reader_;
+  std::map<Index3, std::size_t> leaf_at_;
+};
+
+/// Compares the port with an accessor over [lo, hi]; returns the number of differing samples.
+template <class GridT>
+int differences(const LeafReader& reader, const GridT& grid, const Index3& lo, const Index3& hi) {
+  const Lookup lookup(reader);
+  auto accessor = grid.getConstAccessor();
+  int n = 0;
+  for (std::int32_t i = lo[0]; i <= hi[0]; ++i) {
+    for (std::int32_t j = lo[1]; j <= hi[1]; ++j) {
+      for (std::int32_t k = lo[2]; k <= hi[2]; ++k) {
+        const openvdb::Coord at(i, j, k);
+        const auto [value, active] = lookup.at({i, j, k});
+        const bool same =
+            value == static_cast<double>(accessor.getValue(at)) && active == accessor.isValueOn(at);
+        n += same ? 0 : 1;
+      }
+    }
+  }
+  return n;
+}
+
+/// Noise in a box across the origin, some of it inactive, and an active and an inactive tile
+/// beside.
+template <class GridT>
+typename GridT::Ptr noise(typename GridT::ValueType background) {
+  using Value = typename GridT::ValueType;
+  auto grid = GridT::create(background);
+  auto accessor = grid->getAccessor();
+  std::mt19937 random(7);
+  for (int n = 0; n < 3000; ++n) {
+    const auto pick = [&] { return static_cast<int>(random() % 30U) - 12; };
+    const openvdb::Coord at(pick(), pick(), pick());
+    const auto value = static_cast<Value>(random() % (std::is_same_v<Value, bool> ? 2U : 50U));
+    if (random() % 3U == 0) {
+      accessor.setValueOff(at, value);
+    } else {
+      accessor.setValueOn(at, value);
+    }
+  }
+  grid->tree().addTile(1, {-40, 0, 8}, static_cast<Value>(1), true);
+  grid->tree().addTile(1, {-40, 8, 8}, static_cast<Value>(1), false);
+  return grid;
+}
+
+template <class GridT>
+void expect_round_trip(SampleType type, typename GridT::ValueType background) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = noise<GridT>(background);
+  grid->setName("n");
+  write(folder.path("n.vdb"), {grid});
+  const Source source = open({folder.path("n.vdb")});
+  const LeafReader& reader = leaves(source);
+  EXPECT_EQ(reader.volume().type, type);
+  EXPECT_EQ(reader.volume().n_active, grid->activeVoxelCount());
+  const openvdb::CoordBBox box = grid->evalActiveVoxelBoundingBox();
+  EXPECT_EQ(reader.volume().lattice.box, (IndexBox{{box.min().x(), box.min().y(), box.min().z()},
+                                                   {box.max().x(), box.max().y(), box.max().z()}}));
+  EXPECT_EQ(differences(reader, *grid, {-42, -14, -14}, {19, 19, 19}), 0);
+  EXPECT_TRUE(std::ranges::is_sorted(reader.leaves(), [](const Index3& a, const Index3& b) {
+    return std::tuple(a[2], a[1], a[0]) < std::tuple(b[2], b[1], b[0]);
+  }));
+}
+
+TEST(Vdb, EveryScalarType) {
+  expect_round_trip<openvdb::FloatGrid>(SampleType::f32, 3);
+  expect_round_trip<openvdb::DoubleGrid>(SampleType::f64, -2);
+  expect_round_trip<openvdb::Int32Grid>(SampleType::i32, 5);
+  expect_round_trip<openvdb::Int64Grid>(SampleType::i64, -5);
+  expect_round_trip<openvdb::BoolGrid>(SampleType::u8, false);
+}
+
+TEST(Vdb, MasksAreTheirActiveSamples) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::MaskGrid::create();
+  grid->tree().setValueOn({1, 2, 3});
+  grid->tree().setValueOn({100, 2, 3});
+  grid->tree().addTile(1, {-8, -8, -8}, true, true);
+  write(folder.path("m.vdb"), {grid});
+  const Source source = open({folder.path("m.vdb")});
+  EXPECT_EQ(volume_of(source.reader).type, SampleType::u8);
+  EXPECT_EQ(volume_of(source.reader).cls, VolumeClass::mask);
+  EXPECT_EQ(volume_of(source.reader).n_active, 514U);
+  EXPECT_EQ(differences(leaves(source), *grid, {-10, -10, -10}, {8, 8, 8}), 0);
+}
+
+TEST(Vdb, NumbersComeFromOpenVdbsOwnMemory) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(0);
+  grid->tree().setValueOn({1, 2, 3}, 9);
+  write(folder.path("f.vdb"), {grid});
+  const Source source = open({folder.path("f.vdb")});
+  std::array<std::byte, 4096> scratch{};
+  const std::byte* values = leaves(source).leaf_values(0, scratch.data());
+  EXPECT_NE(values, scratch.data());
+  float value = 0;
+  std::memcpy(&value, values + 4 * (1 * 64 + 2 * 8 + 3), sizeof value);
+  EXPECT_EQ(value, 9);
+}
+
+TEST(Vdb, HalfIsWidenedAndSaidSo) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = noise<openvdb::FloatGrid>(3);
+  grid->setSaveFloatAsHalf(true);
+  write(folder.path("h.vdb"), {grid});
+  const Source source = open({folder.path("h.vdb")});
+  EXPECT_EQ(volume_of(source.reader).type, SampleType::f32);
+  EXPECT_EQ(volume_of(source.reader).stored_as, "half");
+  EXPECT_EQ(differences(leaves(source), *grid, {-14, -14, -14}, {19, 19, 19}), 0);
+}
+
+TEST(Vdb, TilesOfEveryLevel) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(1);
+  openvdb::FloatTree& tree = grid->tree();
+  tree.addTile(1, {8, 0, 0}, 2, true);
+  tree.addTile(1, {16, 0, 0}, 3, false);
+  tree.addTile(1, {24, 0, 0}, 1, true);   // active, of background value
+  tree.addTile(1, {32, 0, 0}, 1, false);  // nothing
+  tree.addTile(2, {-128, 0, 0}, 4, true);
+  tree.addTile(2, {-256, 0, 0}, 5, false);
+  tree.addTile(3, {4096, 0, 0}, 6, false);
+  tree.addTile(3, {-8192, 4096, 0}, 7, true);
+  write(folder.path("t.vdb"), {grid});
+  const Source source = open({folder.path("t.vdb")});
+  std::map<Index3, std::tuple<int, float, bool>> tiles;
+  for (const Tile& tile : leaves(source).tiles()) {
+    tiles[tile.origin] = {tile.size, tile.value.as<float>(), tile.active};
+  }
+  const std::map<Index3, std::tuple<int, float, bool>> expected{
+      {{8, 0, 0}, {8, 2.F, true}},          {{16, 0, 0}, {8, 3.F, false}},
+      {{24, 0, 0}, {8, 1.F, true}},         {{-128, 0, 0}, {128, 4.F, true}},
+      {{-256, 0, 0}, {128, 5.F, false}},    {{4096, 0, 0}, {4096, 6.F, false}},
+      {{-8192, 4096, 0}, {4096, 7.F, true}}};
+  EXPECT_EQ(tiles, expected);
+  EXPECT_EQ(volume_of(source.reader).n_active,
+            2U * 512 + 128ULL * 128 * 128 + 4096ULL * 4096 * 4096);
+}
+
+TEST(Vdb, WithoutActiveSamplesTheBoxIsAllThatIsStored) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(1);
+  grid->tree().setValueOff({1, 2, 3}, -1);
+  grid->tree().addTile(1, {-8, 0, 0}, 2, false);
+  write(folder.path("i.vdb"), {grid});
+  const Volume volume = volume_of(open({folder.path("i.vdb")}).reader);
+  EXPECT_EQ(volume.n_active, 0U);
+  EXPECT_EQ(volume.lattice.box, (IndexBox{{-8, 0, 0}, {7, 7, 7}}));
+}
+
+/// Reads one sample's grid under a transform and compares where some indices lie.
+void expect_placed_as(const openvdb::math::Transform::Ptr& transform) {
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(0);
+  grid->tree().setValueOn({0, 0, 0}, 1);
+  grid->setTransform(transform);
+  write(folder.path("p.vdb"), {grid});
+  const Affine map = volume_of(open({folder.path("p.vdb")}).reader).lattice.to_world;
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-3, 5, 7}}) {
+    const openvdb::Vec3d expected = transform->indexToWorld(openvdb::Vec3d(p[0], p[1], p[2]));
+    const Vec3 found = map(p);
+    for (int a = 0; a < 3; ++a) {
+      EXPECT_NEAR(found[static_cast<std::size_t>(a)], expected[a], 1e-12);
+    }
+  }
+}
+
+TEST(Vdb, AnyLinearTransform) {
+  using openvdb::math::Transform;
+  openvdb::initialize();
+  expect_placed_as(Transform::createLinearTransform(0.25));
+  auto turned = Transform::createLinearTransform(0.5);
+  turned->postRotate(0.7, openvdb::math::Z_AXIS);
+  turned->postScale(openvdb::Vec3d(1, 2, 3));
+  turned->postTranslate({10, -20, 30});
+  turned->postShear(0.5, openvdb::math::X_AXIS, openvdb::math::Y_AXIS);
+  expect_placed_as(turned);
+  auto mirrored = Transform::createLinearTransform(1.0);
+  mirrored->postScale(openvdb::Vec3d(-1, 1, 2));
+  mirrored->postTranslate({3, 4, 5});
+  expect_placed_as(mirrored);
+}
+
+TEST(Vdb, PlacementOptionsOverride) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(0);
+  grid->tree().setValueOn({0, 0, 0}, 1);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
+  write(folder.path("p.vdb"), {grid});
+  SourceOptions options;
+  options.spacing = Vec3{1, 2, 3};
+  options.origin = Vec3{4, 5, 6};
+  EXPECT_EQ(volume_of(open({folder.path("p.vdb")}, options).reader).lattice.to_world,
+            Affine::scale_translate({1, 2, 3}, {4, 5, 6}));
+}
+
+TEST(Vdb, RefusesWhatCannotBeMeshed) {
+  openvdb::initialize();
+  const Folder folder;
+  auto frustum = openvdb::FloatGrid::create(0);
+  frustum->setName("cam");
+  frustum->tree().setValueOn({0, 0, 0}, 1);
+  frustum->setTransform(openvdb::math::Transform::createFrustumTransform(
+      openvdb::BBoxd({0, 0, 0}, {10, 10, 10}), 0.5, 2.0));
+  auto vec = openvdb::Vec3SGrid::create();
+  vec->setName("vel");
+  vec->tree().setValueOn({0, 0, 0}, openvdb::Vec3s(1));
+  auto empty = openvdb::FloatGrid::create(2);
+  empty->setName("void");
+  const std::string file = folder.path("r.vdb");
+  write(file, {vec, frustum, empty});
+  SourceOptions options;
+  EXPECT_EQ(error_of_open({file}),  // the first scalar one
+            "3 " + file +
+                ": grid \"cam\": frustum transform, but only linear transforms can be meshed; "
+                "resample it to a linear transform first");
+  options.grid = "vel";
+  EXPECT_EQ(error_of_open({file}, options),
+            "3 " + file + ": grid \"vel\": type vec3s, but only scalar grids can be meshed");
+  options.grid = "void";
+  EXPECT_EQ(error_of_open({file}, options),
+            "3 " + file + ": grid \"void\": empty, it holds nothing but background");
+  options.grid = "w";
+  EXPECT_EQ(error_of_open({file}, options),
+            "3 " + file +
+                ": no grid \"w\": it has \"vel\", \"cam\", \"void\"; choose one with --grid NAME, "
+                "NAME[n] or #n");
+  const auto grids = describe_source(std::vector{file}, {}, silent_progress());
+  ASSERT_EQ(grids.size(), 3U);
+  EXPECT_EQ(grids[0].type_name, "vec3s");
+  EXPECT_EQ(grids[0].refused, "type vec3s, but only scalar grids can be meshed");
+  EXPECT_EQ(grids[1].refused, "frustum transform, but only linear transforms can be meshed");
+  EXPECT_EQ(grids[2].refused, "empty");
+}
+
+TEST(Vdb, OtherTreesAreRefusedByName) {
+  openvdb::initialize();
+  using Tree = openvdb::tree::Tree4<float, 4, 3, 3>::Type;
+  using Small = openvdb::Grid<Tree>;
+  const Folder folder;
+  const std::string file = folder.path("t.vdb");
+  auto grid = Small::create(0.F);
+  grid->setName("small");
+  grid->tree().setValueOn({0, 0, 0}, 1.F);
+  Small::registerGrid();
+  write(file, {grid});
+  Small::unregisterGrid();
+  EXPECT_EQ(error_of_open({file}),
+            "3 " + file +
+                ": grid \"small\": tree of type \"Tree_float_4_3_3\", but only trees of 5-4-3 "
+                "levels can be meshed");
+}
+
+TEST(Vdb, GridsByNameNumberAndPosition) {
+  openvdb::initialize();
+  const Folder folder;
+  openvdb::GridPtrVec grids;
+  for (const char* name : {"density", "density", "", "heat"}) {
+    auto grid = openvdb::FloatGrid::create(0);
+    grid->setName(name);
+    grid->tree().setValueOn({0, 0, 0}, static_cast<float>(grids.size() + 1));
+    grids.push_back(grid);
+  }
+  const std::string file = folder.path("g.vdb");
+  write(file, grids);
+  const auto value = [&](std::optional<std::string> wanted) {
+    SourceOptions options;
+    options.grid = std::move(wanted);
+    return Lookup(leaves(open({file}, options))).at({0, 0, 0}).first;
+  };
+  EXPECT_EQ(value("density[0]"), 1);
+  EXPECT_EQ(value("density[1]"), 2);
+  EXPECT_EQ(value("density"), 1);
+  EXPECT_EQ(value(""), 3);
+  EXPECT_EQ(value("#2"), 3);
+  EXPECT_EQ(value("heat"), 4);
+  EXPECT_EQ(value("#3"), 4);
+  const Source first = open({file});
+  EXPECT_EQ(volume_of(first.reader).name, "density[0]");
+  EXPECT_EQ(first.other_grids, (std::vector<std::string>{"density[1]", "", "heat"}));
+  EXPECT_EQ(value(std::nullopt), 1);
+}
+
+TEST(Vdb, SharedTreesAndStreamsWithoutOffsets) {
+  openvdb::initialize();
+  const Folder folder;
+  auto a = noise<openvdb::FloatGrid>(3);
+  a->setName("a");
+  auto b = a->copyWithNewTree();  // then given a's own tree, which is written once
+  b->setTree(a->treePtr());
+  b->setTransform(openvdb::math::Transform::createLinearTransform(0.5));
+  b->setName("b");
+  auto c = openvdb::Vec3SGrid::create();
+  c->setName("c");
+  const openvdb::GridPtrVec grids{c, a, b};
+  write(folder.path("shared.vdb"), grids);
+  std::ostringstream stream(std::ios::binary);
+  openvdb::io::Stream(stream).write(grids);
+  const std::string streamed = folder.file("streamed.vdb", stream.str());
+  SourceOptions options;
+  options.grid = "b";
+  for (const std::string& file : {folder.path("shared.vdb"), streamed}) {
+    const Source source = open({file}, options);
+    EXPECT_EQ(differences(leaves(source), *a, {-14, -14, -14}, {19, 19, 19}), 0) << file;
+    EXPECT_EQ(volume_of(source.reader).lattice.to_world.spacing(0), 0.5);
+    EXPECT_EQ(source.other_grids, std::vector<std::string>{"a"});
+    EXPECT_EQ(describe_source(std::vector{file}, {}, silent_progress()).size(), 3U);
+  }
+}
+
+TEST(Vdb, ClassesOfGrids) {
+  openvdb::initialize();
+  const Folder folder;
+  for (const auto& [stored, expected] : std::vector<std::pair<openvdb::GridClass, VolumeClass>>{
+           {openvdb::GRID_LEVEL_SET, VolumeClass::level_set},
+           {openvdb::GRID_FOG_VOLUME, VolumeClass::fog},
+           {openvdb::GRID_UNKNOWN, VolumeClass::unknown}}) {
+    auto grid = openvdb::FloatGrid::create(1);
+    grid->setGridClass(stored);
+    grid->tree().setValueOn({0, 0, 0}, 0.5F);
+    write(folder.path("c.vdb"), {grid});
+    const Volume volume = volume_of(open({folder.path("c.vdb")}).reader);
+    EXPECT_EQ(volume.cls, expected);
+    EXPECT_EQ(volume.units, Units::m);
+    EXPECT_EQ(volume.frame, Frame::none);
+  }
+}
+
+TEST(Vdb, RawsOptionsAreUsage) {
+  openvdb::initialize();
+  const Folder folder;
+  const std::string file = folder.path("c.vdb");
+  auto grid = openvdb::FloatGrid::create(1);
+  write(file, {grid});
+  SourceOptions options;
+  options.dims = {2, 2, 2};
+  EXPECT_EQ(error_of_open({file}, options), "2 --dims: is for raw data, but " + file + " is VDB");
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+std::string noise_file(const Folder& folder) {
+  auto noisy = noise<openvdb::FloatGrid>(3);
+  auto vec = openvdb::Vec3SGrid::create();
+  vec->setName("vel");
+  vec->tree().setValueOn({0, 0, 0}, openvdb::Vec3s(1));
+  noisy->setName("n");
+  noisy->insertMeta("author", openvdb::StringMetadata("nobody"));
+  write(folder.path("whole.vdb"), {noisy, vec});
+  return test::read_bytes(folder.path("whole.vdb"));
+}
+
+TEST(VdbDamaged, EveryCutIsAnInputErrorAndQuick) {
+  openvdb::initialize();
+  const Folder folder;
+  const std::string bytes = noise_file(folder);
+  for (std::size_t n = 0; n < 50; ++n) {
+    // Half of the cuts go through the first KiB, where the headers are.
+    const std::size_t at = n < 25 ? 1 + n * 40 : 1001 + (n - 25) * (bytes.size() - 1002) / 24;
+    const std::string file = folder.file("cut.vdb", std::string_view(bytes).substr(0, at));
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(error_of_open({file}).substr(0, 2 + file.size()), "3 " + file) << at;
+    EXPECT_LT(seconds_since(start), 2.0) << at;
+  }
+}
+
+TEST(VdbDamaged, FlippedBytesNeverCrash) {
+  openvdb::initialize();
+  const Folder folder;
+  const std::string bytes = noise_file(folder);
+  std::mt19937 random(11);
+  int n_errors = 0;
+  for (int n = 0; n < 120; ++n) {
+    std::string flipped = bytes;
+    const std::size_t within = n % 2 == 0 ? 1500 : bytes.size();
+    flipped[random() % within] = static_cast<char>(random());
+    const std::string file = folder.file("flipped.vdb", flipped);
+    const auto start = std::chrono::steady_clock::now();
+    const std::string error = error_of_open({file});
+    EXPECT_TRUE(error == "no error" || error[0] == '3' || error[0] == '6') << error;
+    EXPECT_LT(seconds_since(start), 2.0) << n;
+    n_errors += error == "no error" ? 0 : 1;
+  }
+  EXPECT_GT(n_errors, 0);
+}
+
+TEST(VdbDamaged, LengthsThatTheFileDoesNotHold) {
+  openvdb::initialize();
+  const Folder folder;
+  std::string bytes = noise_file(folder);
+  // The length of the first grid's unique name follows the header, no file metadata, and the count.
+  const std::size_t at = bytes.find(std::string("\1\0\0\0n", 5));
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 3] = '\x7F';
+  const std::string file = folder.file("long.vdb", bytes);
+  EXPECT_EQ(error_of_open({file}),
+            "3 " + file + ": cut off after " + std::to_string(bytes.size()) +
+                " bytes, within the list of grids; fetch or write the file again");
+}
+
+struct RealGrid {
+  const char* file;
+  const char* grid;
+  std::uint64_t n_active;
+  IndexBox box;
+  VolumeClass cls;
+  double spacing;
+  const char* stored_as;
+};
+
+TEST(VdbReal, AgreesWithOtherReaders) {
+  // The numbers of the three densities are those in the file, not their metadata "index".
+  const std::vector<RealGrid> grids{{"vdb-zeno-sphere-levelset/sphere.vdb",
+                                     "",
+                                     40404,
+                                     {{-27, 17, -22}, {20, 64, 25}},
+                                     VolumeClass::level_set,
+                                     0.0099999998,
+                                     ""},
+                                    {"vdb-cube-levelset-half/cube.vdb",
+                                     "ls_cube",
+                                     1452218,
+                                     {{-112, -112, -112}, {112, 112, 112}},
+                                     VolumeClass::level_set,
+                                     0.050000001,
+                                     "half"},
+                                    {"vdb-smoke-fog-half/smoke.vdb",
+                                     "density",
+                                     1049275,
+                                     {{1, 2, 1}, {111, 223, 112}},
+                                     VolumeClass::fog,
+                                     0.47619048,
+                                     "half"},
+                                    {"vdb-torus-bifrost-fog/torus01.vdb",
+                                     "voxel_fog_density",
+                                     2450,
+                                     {{-25, -4, 1}, {-4, 4, 22}},
+                                     VolumeClass::fog,
+                                     0.40323097,
+                                     ""},
+                                    {"vdb-three-density-grids/grids.vdb",
+                                     "density[0]",
+                                     491,
+                                     {{-5, -5, -5}, {5, 5, 5}},
+                                     VolumeClass::fog,
+                                     0.1,
+                                     ""},
+                                    {"vdb-three-density-grids/grids.vdb",
+                                     "density[1]",
+                                     2222,
+                                     {{-9, -13, -9}, {9, 5, 12}},
+                                     VolumeClass::fog,
+                                     0.1,
+                                     ""},
+                                    {"vdb-three-density-grids/grids.vdb",
+                                     "density[2]",
+                                     803,
+                                     {{-5, -5, -5}, {5, 5, 5}},
+                                     VolumeClass::fog,
+                                     0.1,
+                                     ""}};
+  for (const RealGrid& expected : grids) {
+    const std::string file = test::shared_volume(expected.file);
+    MC_NEEDS_VOLUME(file);
+    SourceOptions options;
+    options.grid = expected.grid;
+    const Volume volume = volume_of(open({file}, options).reader);
+    EXPECT_EQ(volume.n_active, expected.n_active) << file;
+    EXPECT_EQ(volume.lattice.box, expected.box) << file;
+    EXPECT_EQ(volume.cls, expected.cls) << file;
+    EXPECT_EQ(volume.stored_as, expected.stored_as) << file;
+    EXPECT_NEAR(volume.lattice.to_world.spacing(0), expected.spacing, 1e-7) << file;
+  }
+}
+
+TEST(VdbReal, UnmeshableGridsAreNamed) {
+  const std::string points = test::shared_volume("vdb-unmeshable/points.vdb");
+  const std::string vectors = test::shared_volume("vdb-unmeshable/vel_VDB_bound_v02.vdb");
+  MC_NEEDS_VOLUME(points);
+  EXPECT_EQ(error_of_open({points}).substr(2 + points.size()),
+            ": grid \"points\": type ptdataidx32, but only scalar grids can be meshed");
+  EXPECT_EQ(error_of_open({vectors}).substr(2 + vectors.size()),
+            ": grid \"vel\": type vec3s, but only scalar grids can be meshed");
+  const auto grids = describe_source(std::vector{vectors}, {}, silent_progress());
+  ASSERT_EQ(grids.size(), 1U);
+  EXPECT_EQ(grids[0].type_name, "vec3s");
+}
+
+}  // namespace
+}  // namespace mc
+
+#endif
