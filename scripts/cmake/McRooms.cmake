@@ -7,6 +7,7 @@ function(mc_room_sources out)
     file(GLOB_RECURSE found CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${room}/*.cpp)
     list(APPEND all ${found})
   endforeach()
+  list(FILTER all EXCLUDE REGEX "/main\\.cpp$") # a program's, not a library's
   set(${out} ${all} PARENT_SCOPE)
 endfunction()
 

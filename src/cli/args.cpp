@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "cli/args.hpp"
+
+// The option tables. CLI.md's names and meanings are fixed; the manual pages repeat them, and a
+// test compares the two.
+
+namespace mc::cli {
+
+namespace {
+
+void append(std::vector<Option>& to, std::vector<Option> more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+std::vector<Option> source_options(SourceArgs& a) {
+  return {
+      {"--from", "TYPE", "what the input is: vdb, raw, nrrd or spec (default: its content decides)",
+       false, &a.from},
+      {"--grid", "NAME", "VDB grid: NAME, NAME[n] or #n (default: the first that is scalar)", true,
+       &a.grid},
+      {"--dims", "X,Y[,Z]", "raw data: samples along each axis; without Z the slices are counted",
+       true, &a.dims},
+      {"--type", "TYPE", "raw data: u8, i8, u16, i16, u32, i32, f16, f32 or f64", true, &a.type},
+      {"--endian", "ORDER", "raw data: little (default) or big", false, &a.endian},
+      {"--skip", "BYTES", "raw data: header bytes of each file to pass over", false, &a.skip},
+      {"--spacing", "X,Y,Z", "world distance between samples; overrides the file's", true,
+       &a.spacing},
+      {"--origin", "X,Y,Z", "world position of sample 0,0,0; overrides the file's", false,
+       &a.origin},
+  };
+}
+
+std::vector<Option> talk_options(CommonArgs& a) {
+  return {
+      {"-q,--quiet", "", "no notes and no progress; errors and warnings only", false, &a.quiet},
+      {"-v,--verbose", "", "say more; with --help, show every option", false, &a.verbose},
+      {"-h,--help", "", "show this text", true, &a.help},
+  };
+}
+
+std::vector<Option> run_options(CommonArgs& a, Text& memory) {
+  return {
+      {"--threads", "N", "threads to use (default: all cores)", false, &a.threads},
+      {"--memory", "SIZE", "budget of the run's buffers, such as 512MiB (default: 1GiB)", false,
+       &memory},
+      {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr", false,
+       &a.progress},
+  };
+}
+
+std::vector<Option> surface_options(ExtractArgs& a) {
+  return {
+      {"--iso", "V[,V...]", "value of the surface: numbers, otsu, or pNN for a percentile", true,
+       &a.iso},
+      {"--inside", "SIDE", "which side is solid: above, below or auto (default)", true, &a.inside},
+      {"--invert", "", "swap the solid side", false, &a.invert},
+      {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", false,
+       &a.region},
+      {"--border", "HOW", "open: the mesh ends at the volume's border; closed: it is capped there",
+       true, &a.border},
+      {"--interpolation", "HOW", "linear (default), or midpoint of each crossed edge", false,
+       &a.interpolation},
+      {"--cutoff", "D", "edges whose two values differ by less than D take the midpoint", false,
+       &a.cutoff},
+      {"--min-edge", "E", "keep vertices E of an edge away from its ends (default: 1/1024)", false,
+       &a.min_edge},
+      {"--topology", "RULE", "faces: one rule for every cell face, always watertight", false,
+       &a.topology},
+      {"--normals", "HOW", "gradient (default where the format holds normals), face or none", false,
+       &a.normals},
+  };
+}
+
+std::vector<Option> place_options(ExtractArgs& a) {
+  return {
+      {"--frame", "FRAME", "source (default), ras or lps: convert to it, or declare it", false,
+       &a.frame},
+      {"--up", "AXIS", "y (default) or z: up axis of a source that has no frame", false, &a.up},
+      {"--units", "UNIT", "mm or m: convert to it, or declare it", false, &a.units},
+  };
+}
+
+}  // namespace
+
+std::vector<Option> options_of(ExtractArgs& a) {
+  std::vector<Option> all{
+      {"-o,--output", "FILE", ".ply, .obj, .stl, .glb or .gltf; - is stdout, with --to", true,
+       &a.output},
+      {"--out-dir", "DIR", "batch: each input becomes a mesh of its own in DIR", true, &a.out_dir},
+      {"--to", "TYPE", "ply, obj, stl, glb or gltf (default: by the output's extension)", true,
+       &a.to},
+  };
+  append(all, surface_options(a));
+  append(all, source_options(a.source));
+  append(all, place_options(a));
+  append(
+      all,
+      {{"--ascii", "", "PLY, STL: text form", false, &a.ascii},
+       {"--precision", "HOW", "PLY: float or double coordinates", false, &a.precision},
+       {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
+       {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
+       {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
+       {"--allow-empty", "", "a mesh without triangles is a success", false, &a.allow_empty}});
+  append(all, run_options(a.common, a.memory));
+  append(all, talk_options(a.common));
+  return all;
+}
+
+std::vector<Option> options_of(SampleArgs& a) {
+  std::vector<Option> all{
+      {"-o,--output", "FILE", ".vdb, .nrrd or .raw; - is stdout, with --to", true, &a.output},
+      {"--to", "TYPE", "vdb, nrrd or raw (default: by the output's extension)", true, &a.to},
+      {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", true, &a.region},
+  };
+  append(all, source_options(a.source));
+  append(all, {{"--force", "", "replace an existing output; write binary to a terminal", true,
+                &a.force}});
+  append(all, run_options(a.common, a.memory));
+  append(all, talk_options(a.common));
+  return all;
+}
+
+std::vector<Option> options_of(InfoArgs& a) {
+  std::vector<Option> all{{"--json", "", "one JSON object a line for each input", true, &a.json}};
+  append(all, source_options(a.source));
+  append(all, {{"--threads", "N", "threads to use (default: all cores)", false, &a.common.threads},
+               {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr",
+                false, &a.common.progress}});
+  append(all, talk_options(a.common));
+  return all;
+}
+
+std::vector<Option> options_of(CheckArgs& a) {
+  std::vector<Option> all{{"--json", "", "one JSON object a line for each mesh", true, &a.json},
+                          {"--closed", "", "boundary edges are a defect too", true, &a.closed}};
+  append(all, talk_options(a.common));
+  return all;
+}
+
+std::vector<Option> options_of(TopArgs& a) {
+  std::vector<Option> all{
+      {"--version", "", "show the version; with -v, what was built in", true, &a.version}};
+  append(all, talk_options(a.common));
+  return all;
+}
+
+}  // namespace mc::cli

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+// What the user typed, as text: the first of the three shapes that options pass through (text,
+// typed options, what the engine takes). Every option that takes a value is one string, so that
+// `--iso -300.5` and lists with commas arrive whole; resolve.hpp reads them.
+
+namespace mc::cli {
+
+using Text = std::optional<std::string>;
+
+/// How a source is to be read; the same for every command that takes volumes.
+struct SourceArgs {
+  std::vector<std::string> inputs;
+  Text from, grid, dims, type, endian, skip, spacing, origin;
+};
+
+/// Options of every command.
+struct CommonArgs {
+  Text progress, threads;
+  int quiet = 0, verbose = 0;
+  bool help = false;
+  std::vector<std::string> typed;  ///< the command's words as they were typed, for messages
+};
+
+struct ExtractArgs {
+  SourceArgs source;
+  CommonArgs common;
+  Text output, out_dir, to;
+  Text iso, inside, region, border;
+  bool invert = false;
+  Text interpolation, cutoff, min_edge, topology, normals;
+  Text frame, up, units;
+  bool ascii = false;
+  Text precision;
+  Text memory, report;
+  bool dry_run = false, force = false, allow_empty = false;
+};
+
+struct SampleArgs {
+  SourceArgs source;
+  CommonArgs common;
+  Text output, to, region, memory;
+  bool force = false;
+};
+
+struct InfoArgs {
+  SourceArgs source;
+  CommonArgs common;
+  bool json = false;
+};
+
+struct CheckArgs {
+  std::vector<std::string> inputs;
+  CommonArgs common;
+  bool json = false, closed = false;
+};
+
+/// Options before any command.
+struct TopArgs {
+  CommonArgs common;
+  bool version = false;
+};
+
+/// One option: how it is shown, and where its text goes.
+struct Option {
+  std::string_view names;  ///< "--iso", or "-o,--output"
+  std::string_view value;  ///< placeholder in help; empty for a flag
+  std::string_view help;
+  bool basic = false;  ///< shown by --help without -v
+  std::variant<Text*, bool*, int*> target;
+};
+
+/// The options of a command, bound to `args`, in the order help shows them. The one table that
+/// parsing, help, and the test of the manual pages read.
+std::vector<Option> options_of(ExtractArgs& args);
+std::vector<Option> options_of(SampleArgs& args);
+std::vector<Option> options_of(InfoArgs& args);
+std::vector<Option> options_of(CheckArgs& args);
+std::vector<Option> options_of(TopArgs& args);
+
+}  // namespace mc::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "base/parallel.hpp"
+#include "cli/command_line.hpp"
+#include "cli/extract_job.hpp"
+#include "cli/help.hpp"
+#include "cli/report_file.hpp"
+#include "cli/session.hpp"
+
+// `mc extract`: volumes to meshes, one or a batch of them.
+
+namespace mc::cli {
+
+namespace {
+
+/// One job, whatever becomes of it: its report is complete and its failure told.
+int run_reported(const ExtractPlan& plan, const Job& job, Session& session, ReportFile& file) {
+  RunReport report;
+  const auto failure = attempt([&] { run_job(plan, job, session, report); });
+  if (failure) {
+    report.status = show(session.console, *failure);
+    report.error = fmt::format("{}", fmt::join(failure->lines, "\n"));
+  }
+  report.warnings = session.console.take_warnings();
+  file.add_line(to_json(report));
+  return report.status;
+}
+
+/// A command line that is wrong is reported too, as far as it can be read.
+int report_usage(const ExtractArgs& args, Session& session, const Failure& failure) {
+  RunReport report;
+  report.status = show(session.console, failure);
+  report.error = fmt::format("{}", fmt::join(failure.lines, "\n"));
+  if (!args.source.inputs.empty()) report.input = args.source.inputs.front();
+  report.output = args.output;
+  const bool clash = args.report && args.report == args.output;
+  if (args.report && !args.report->empty() && !clash) {
+    ReportFile file(args.report);
+    file.add_line(to_json(report));
+    file.finish();
+  }
+  return failure.status;
+}
+
+}  // namespace
+
+int run_extract(Session& session, std::vector<std::string> words) {
+  ExtractArgs args;
+  args.common.typed = words;
+  const std::vector<Option> options = options_of(args);
+  parse_words("extract", options, &args.source.inputs, std::move(words));
+  if (args.common.help) {
+    print_out(help_text("extract", args.common.verbose > 0));
+    return 0;
+  }
+  ExtractPlan plan;
+  if (const auto failure = attempt([&] { plan = resolve(args); })) {
+    return report_usage(args, session, *failure);
+  }
+  session.console.configure(plan.common);
+  std::optional<base::ThreadLimit> limit;
+  if (plan.common.threads > 0) limit.emplace(plan.common.threads);
+  ReportFile file(plan.report);
+  int status = 0;
+  for (const Job& job : plan.jobs) {
+    const int job_status = run_reported(plan, job, session, file);
+    if (status == 0) status = job_status;
+    if (session.stop.stop_requested()) break;
+  }
+  file.finish();
+  return status;
+}
+
+}  // namespace mc::cli

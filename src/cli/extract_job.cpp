@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "cli/extract_job.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "cli/placement.hpp"
+#include "cli/region.hpp"
+#include "cli/surface_choice.hpp"
+#include "cli/values.hpp"
+#include "mc/pipe.hpp"
+
+// Open, place, choose, check the budget, then run the engine once an iso. Whatever can refuse comes
+// before what takes long.
+
+namespace mc::cli {
+
+namespace {
+
+std::uint64_t sample_bytes(const VolumeReader& reader) {
+  const Volume& volume = volume_of(reader);
+  const std::uint64_t each = sample_size(volume.type);
+  if (const auto* sparse = std::get_if<std::unique_ptr<LeafReader>>(&reader)) {
+    return (*sparse)->leaves().size() * LeafReader::kLeafSamples * each;
+  }
+  std::uint64_t n = each;
+  for (int a = 0; a < 3; ++a) n *= static_cast<std::uint64_t>(volume.lattice.box.extent(a));
+  return n;
+}
+
+/// What one job knows by and by.
+class Extraction {
+ public:
+  Extraction(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report)
+      : plan_(plan), job_(job), session_(session), report_(report) {}
+
+  void open();
+  void place_mesh();
+  void choose_surface();
+  void describe() const;
+  void write();
+
+ private:
+  template <class Work>
+  void timed(const char* stage, Work&& work);
+  [[nodiscard]] const VolumeReader& reader() const { return source_->reader; }
+  [[nodiscard]] const Volume& volume() const { return volume_of(source_->reader); }
+  [[nodiscard]] IndexBox box() const { return plan_.extract.region.value_or(volume().lattice.box); }
+  [[nodiscard]] RunOptions run_options(const Iso& iso) const;
+  [[nodiscard]] SinkOptions sink_options() const;
+  [[nodiscard]] FieldStatistics measure(std::span<const double> percentiles);
+  void probe_output() const;
+  MeshTotals run_one(const Iso& iso, MeshSink& sink);
+  void note_border(const MeshTotals& totals) const;
+
+  const ExtractPlan& plan_;
+  const Job& job_;
+  Session& session_;
+  RunReport& report_;
+  std::optional<Source> source_;
+  Placement placement_;
+  MeshNeeds needs_;
+  std::vector<Iso> isos_;
+  Inside inside_ = Inside::above;
+  Border border_ = Border::open;
+};
+
+template <class Work>
+void Extraction::timed(const char* stage, Work&& work) {
+  const auto began = std::chrono::steady_clock::now();
+  report_.stages.push_back({stage, 0, std::nullopt});
+  const std::size_t at = report_.stages.size() - 1;
+  work();
+  session_.console.end_stage();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+  report_.stages[at].seconds = seconds.count();
+  if (source_) report_.stages[at].n_bytes = sample_bytes(reader());
+  session_.console.detail(fmt::format("{}: {:.3f} s", stage, seconds.count()));
+}
+
+void Extraction::open() {
+  report_.input = job_.inputs.front();
+  report_.output = job_.output;
+  timed("open", [&] {
+    source_.emplace(open_source(job_.inputs, plan_.source, session_.console));
+    report_.input = source_->place;
+    report_.volume = volume();
+  });
+  check_region(reader(), plan_.extract.region);
+  if (!plan_.source.grid && !source_->other_grids.empty()) {
+    session_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
+                                      source_->place, volume().name,
+                                      fmt::join(source_->other_grids, ", ")));
+  }
+}
+
+void Extraction::place_mesh() {
+  placement_ = place(volume(), plan_.place, plan_.format);
+  report_.placement = placement_;
+  const FloatLoss loss = float_loss(box(), placement_.to_world);
+  needs_ = mesh_needs(plan_.format, plan_.sink, loss.matters);
+  if (!loss.matters || needs_.relative_origin) return;
+  if (needs_.precision == Precision::f64) {
+    session_.console.note(fmt::format(
+        "coordinates are doubles: float would move vertices by up to {:.3g}", loss.largest_move));
+  } else {
+    session_.console.warn(fmt::format(
+        "{}: float coordinates move vertices by up to {:.3g}, more than 1/8192 of a cell; "
+        "ply or glb keep them in place",
+        plan_.format, loss.largest_move));
+  }
+}
+
+FieldStatistics Extraction::measure(std::span<const double> percentiles) {
+  FieldStatistics statistics;
+  timed("statistics", [&] {
+    statistics = measure_field(reader(), percentiles, session_.console, session_.stop.get_token());
+  });
+  return statistics;
+}
+
+void Extraction::choose_surface() {
+  inside_ = choose_inside(plan_.inside, plan_.invert, volume());
+  border_ = choose_border(plan_.border, volume());
+  report_.inside = inside_;
+  if (iso_needs_data(plan_.isos, volume()) && !plan_.dry_run) probe_output();
+  isos_ = choose_isos(plan_.isos, volume(), source_->place,
+                      [&](std::span<const double> percentiles) { return measure(percentiles); });
+  for (const Iso& iso : isos_) {
+    report_.isos.push_back(iso.value);
+    const std::string value = iso_text(iso.value, volume().type);
+    session_.console.note(iso.reason.empty() ? fmt::format("iso {}", value)
+                                             : fmt::format("iso {} ({})", value, iso.reason));
+  }
+}
+
+/// An output that cannot be written is found before the data are read for the iso. Devices and
+/// FIFOs are left alone: opening them is felt at their other end.
+void Extraction::probe_output() const {
+  struct stat status {};
+  const bool exists = job_.output != "-" && stat(job_.output.c_str(), &status) == 0;
+  if (job_.output == "-" || (exists && !S_ISREG(status.st_mode))) return;
+  open_mesh_sink(job_.output, plan_.sink);
+}
+
+RunOptions Extraction::run_options(const Iso& iso) const {
+  RunOptions options;
+  options.extract = plan_.extract;
+  options.extract.iso = iso.value;
+  options.extract.inside = inside_;
+  options.extract.border = border_;
+  options.extract.precision = needs_.precision;
+  if (needs_.relative_origin) options.extract.origin = double_origin(box(), placement_.to_world);
+  options.object.iso = iso.value;
+  options.object.name = isos_.size() == 1 && !volume().name.empty()
+                            ? volume().name
+                            : fmt::format("iso {}", iso_text(iso.value, volume().type));
+  options.object.has_normals = plan_.extract.normals != Normals::none;
+  options.object.precision = needs_.precision;
+  options.object.origin = options.extract.origin;
+  options.memory_bytes = plan_.memory_bytes;
+  options.to_world = placement_.to_world;
+  return options;
+}
+
+/// Facts for the file: what was chosen, and nothing that differs between two runs of one choice.
+SinkOptions Extraction::sink_options() const {
+  SinkOptions options = plan_.sink;
+  auto& facts = options.provenance;
+  facts.emplace_back("generator", "mc " MC_VERSION);
+  if (!volume().name.empty()) facts.emplace_back("grid", volume().name);
+  std::vector<std::string> isos;
+  for (const Iso& iso : isos_) isos.push_back(iso_text(iso.value, volume().type));
+  facts.emplace_back("iso", fmt::format("{}", fmt::join(isos, ",")));
+  facts.emplace_back("inside", name_of(inside_));
+  facts.emplace_back("border", name_of(border_));
+  const bool y_up = plan_.format == "glb" || plan_.format == "gltf";
+  facts.emplace_back("frame", name_of(y_up ? placement_.source_frame : placement_.frame));
+  if (y_up || placement_.source_frame == Frame::none) {
+    facts.emplace_back("up", y_up ? "y" : name_of(placement_.source_up));
+  }
+  facts.emplace_back("units", name_of(placement_.units));
+  return options;
+}
+
+MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
+  try {
+    return run(reader(), run_options(iso), plan_.allow_empty, sink, session_.console,
+               session_.stop.get_token());
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::empty) throw;
+  }
+  // The engine has not looked at the values; who asked for this iso wants to know them.
+  const FieldStatistics statistics = measure({});
+  const std::string value = iso_text(iso.value, volume().type);
+  if (statistics.n_nan + statistics.n_infinite == statistics.n_samples) {
+    throw Error(ErrorKind::empty, source_->place,
+                fmt::format("no surface at iso {}: none of the {} samples is a finite number",
+                            value, statistics.n_samples));
+  }
+  throw Error(
+      ErrorKind::empty, source_->place,
+      fmt::format("no surface at iso {}: the data lie in [{}, {}]", value,
+                  iso_text(statistics.min, volume().type), iso_text(statistics.max, volume().type)),
+      statistics.min == statistics.max ? "all samples are the same"
+                                       : "choose an --iso between them");
+}
+
+void Extraction::note_border(const MeshTotals& totals) const {
+  if (border_ != Border::open || plan_.border || totals.n_boundary_edges == 0) return;
+  session_.console.note(fmt::format(
+      "the mesh is open at the volume's border: {} boundary edges; --border closed caps it",
+      totals.n_boundary_edges));
+}
+
+void Extraction::write() {
+  timed("extract", [&] {
+    const std::unique_ptr<MeshSink> sink = open_mesh_sink(job_.output, sink_options());
+    for (const Iso& iso : isos_) report_.totals.push_back(run_one(iso, *sink));
+    sink->finish();
+  });
+  for (const MeshTotals& totals : report_.totals) {
+    note_border(totals);
+    session_.console.detail(fmt::format("{}: {} vertices, {} triangles", job_.output,
+                                        totals.n_vertices, totals.n_triangles));
+  }
+}
+
+void Extraction::describe() const {
+  const Volume& v = volume();
+  const IndexBox taken = box();
+  std::string text = fmt::format("input    {}\n", source_->place);
+  text += fmt::format("format   {}{}{}\n", v.format, v.name.empty() ? "" : ", grid ", v.name);
+  text += fmt::format("samples  {} x {} x {} {}, {}\n", taken.extent(0), taken.extent(1),
+                      taken.extent(2), sample_name(v.type), size_text(sample_bytes(reader())));
+  for (const Iso& iso : isos_) {
+    text += fmt::format("iso      {}{}\n", iso_text(iso.value, v.type),
+                        iso.reason.empty() ? "" : fmt::format(" ({})", iso.reason));
+  }
+  text += fmt::format("inside   {}\n", name_of(inside_));
+  text += fmt::format("border   {}\n", name_of(border_));
+  text += fmt::format("frame    {}, units {}\n", name_of(placement_.source_frame),
+                      name_of(placement_.units));
+  text +=
+      fmt::format("memory   {}\n", size_text(memory_needed(reader(), run_options(isos_.front()))));
+  text += fmt::format("output   {} ({})\n", job_.output, plan_.format);
+  print_out(text);
+}
+
+}  // namespace
+
+void run_job(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report) {
+  Extraction extraction(plan, job, session, report);
+  extraction.open();
+  extraction.place_mesh();
+  extraction.choose_surface();
+  if (plan.dry_run) {
+    if (plan.report != "-") extraction.describe();
+    return;
+  }
+  extraction.write();
+}
+
+}  // namespace mc::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cli/report.hpp"
+#include "cli/resolve.hpp"
+#include "cli/session.hpp"
+
+// One volume to one mesh.
+
+namespace mc::cli {
+
+/// Runs `job` of `plan`, or with --dry-run says what it would do; fills `report` as far as it
+/// comes, also when it throws.
+void run_job(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report);
+
+}  // namespace mc::cli

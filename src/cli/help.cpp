@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "cli/help.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cli/args.hpp"
+#include "cli/command_line.hpp"
+#include "cli/session.hpp"
+#include "cli/values.hpp"
+#include "mc/base.hpp"
+
+// One page a command: usage, what it does, options from the table, examples.
+
+namespace mc::cli {
+
+namespace {
+
+struct Page {
+  std::string_view name;
+  std::string_view usage;
+  std::string_view summary;
+  std::string_view text;
+  std::string_view examples;
+};
+
+constexpr std::array<Page, 4> kPages{{
+    {"extract", "mc extract INPUT... -o OUTPUT", "volume to triangle mesh",
+     "Meshes the surface where the values of a volume pass --iso. INPUT is a VDB or NRRD\n"
+     "file, a mc-volume spec (.json), raw data (with --dims and --type), raw slices, or -\n"
+     "for stdin. Several INPUTs are slices of one volume, but with --out-dir each is a\n"
+     "volume of its own.\n",
+     "  mc extract smoke.vdb -o smoke.glb\n"
+     "  mc extract head.raw --dims 256,256,128 --type u16 --iso 900 -o head.ply\n"
+     "  mc extract scan.nrrd --iso otsu --border closed -o scan.stl\n"
+     "  mc extract *.vdb --out-dir meshes --to ply --report -\n"},
+    {"sample", "mc sample INPUT -o VOLUME", "any input to a volume file",
+     "Writes the samples of a volume, or of a mc-volume spec, as .vdb, .nrrd or .raw.\n",
+     "  mc sample terrain.json -o terrain.vdb\n"
+     "  mc sample smoke.vdb --region 0,0,0:63,63,63 -o part.nrrd\n"},
+    {"info", "mc info INPUT... [--json]", "what is in a volume",
+     "Lists the grids of each INPUT: type, dimensions, spacing, range, percentiles and the\n"
+     "iso that mc extract would take.\n",
+     "  mc info smoke.vdb\n"
+     "  mc info head.raw --dims 256,256,128 --type u16 --json\n"},
+    {"check", "mc check MESH... [--json] [--closed]", "is a mesh closed, manifold, oriented",
+     "Reads PLY, OBJ, STL, glTF and GLB meshes and counts what is wrong with them. Ends\n"
+     "with status 7 when one has a defect.\n",
+     "  mc check head.ply\n"
+     "  mc check --closed --json part.stl\n"},
+}};
+
+const Page* page_of(std::string_view command) {
+  const auto at = std::find_if(kPages.begin(), kPages.end(),
+                               [&](const Page& page) { return page.name == command; });
+  return at == kPages.end() ? nullptr : &*at;
+}
+
+/// Calls f with the option table of a command.
+template <class F>
+auto with_options(std::string_view command, F&& f) {
+  if (command == "extract") {
+    ExtractArgs args;
+    return f(options_of(args));
+  }
+  if (command == "sample") {
+    SampleArgs args;
+    return f(options_of(args));
+  }
+  if (command == "info") {
+    InfoArgs args;
+    return f(options_of(args));
+  }
+  if (command == "check") {
+    CheckArgs args;
+    return f(options_of(args));
+  }
+  TopArgs args;
+  return f(options_of(args));
+}
+
+std::string option_label(const Option& option) {
+  const auto names = option_names(option);
+  std::string label = names.front().starts_with("--") ? "    " : "";
+  label += fmt::format("{}", fmt::join(names, ", "));
+  if (!option.value.empty()) label += fmt::format(" {}", option.value);
+  return label;
+}
+
+std::string options_text(const std::vector<Option>& options, bool all) {
+  constexpr std::size_t kColumn = 26;
+  std::string text;
+  for (const Option& option : options) {
+    if (!all && !option.basic) continue;
+    const std::string label = option_label(option);
+    // A label too long for its column gets a line of its own.
+    text += label.size() + 2 > kColumn
+                ? fmt::format("  {}\n  {:{}}{}\n", label, "", kColumn, option.help)
+                : fmt::format("  {:{}}{}\n", label, kColumn, option.help);
+  }
+  return text;
+}
+
+std::string program_text(bool verbose) {
+  std::string text =
+      "mc turns scalar volumes into triangle meshes.\n\n"
+      "Usage: mc COMMAND ... | mc --version [-v] | mc help [COMMAND]\n\n"
+      "Commands:\n";
+  for (const Page& page : kPages) text += fmt::format("  {:10}{}\n", page.name, page.summary);
+  text += "\nOptions:\n";
+  text += with_options("", [&](const std::vector<Option>& o) { return options_text(o, verbose); });
+  text +=
+      "\nExample:\n"
+      "  mc extract smoke.vdb -o smoke.glb\n\n"
+      "Exit status: 0 done, 1 internal fault, 2 usage, 3 input, 4 output, 5 no surface,\n"
+      "6 over a limit, 7 check found a defect. See mc(1) and mc COMMAND --help.\n";
+  return text;
+}
+
+[[noreturn]] void refuse_topic(std::string_view topic) {
+  const auto names = command_names();
+  const std::string near = suggestion(topic, names);
+  throw Error(ErrorKind::usage, topic,
+              fmt::format("no such command: expected {}", enumerate(names)), near);
+}
+
+/// One option name a line, for the test that compares the manual pages.
+std::string bare_options(std::string_view command) {
+  return with_options(command, [](const std::vector<Option>& options) {
+    std::string text;
+    for (const Option& option : options) {
+      for (const std::string_view name : option_names(option)) text += fmt::format("{}\n", name);
+    }
+    return text;
+  });
+}
+
+}  // namespace
+
+std::vector<std::string_view> command_names() {
+  std::vector<std::string_view> names;
+  for (const Page& page : kPages) names.push_back(page.name);
+  names.emplace_back("help");
+  return names;
+}
+
+std::string help_text(std::string_view command, bool verbose) {
+  if (command.empty()) return program_text(verbose);
+  const Page* page = page_of(command);
+  if (page == nullptr) refuse_topic(command);
+  std::string text = fmt::format("mc {}: {}\n\nUsage: {}\n\n{}\nOptions:\n", page->name,
+                                 page->summary, page->usage, page->text);
+  text +=
+      with_options(command, [&](const std::vector<Option>& o) { return options_text(o, verbose); });
+  if (!verbose) text += fmt::format("\nAll options: mc {} -v --help\n", page->name);
+  text += fmt::format("\nExamples:\n{}", page->examples);
+  return text;
+}
+
+int run_help(Session& /*session*/, std::vector<std::string> words) {
+  const bool bare = !words.empty() && words.front() == "--options";
+  if (bare) words.erase(words.begin());
+  TopArgs args;
+  std::vector<std::string> topics;
+  if (!bare) {
+    parse_words("help", options_of(args), &topics, std::move(words));
+  } else {
+    topics = std::move(words);
+  }
+  if (topics.size() > 1)
+    throw Error(ErrorKind::usage, topics[1], "unexpected word after the topic");
+  std::string topic = topics.empty() ? "" : topics.front();
+  if (topic == "help") topic.clear();
+  if (bare && !topic.empty() && page_of(topic) == nullptr) refuse_topic(topic);
+  print_out(bare ? bare_options(topic) : help_text(topic, args.common.verbose > 0));
+  return 0;
+}
+
+}  // namespace mc::cli

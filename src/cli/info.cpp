@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "base/parallel.hpp"
+#include "cli/command_line.hpp"
+#include "cli/help.hpp"
+#include "cli/report.hpp"
+#include "cli/session.hpp"
+#include "cli/surface_choice.hpp"
+#include "cli/values.hpp"
+
+// `mc info`: what an input holds, and what extract would do with it.
+
+namespace mc::cli {
+
+namespace {
+
+/// One input: a file, or the slices of one raw volume.
+std::vector<std::vector<std::string>> grouped(const SourceArgs& args) {
+  if (args.type) return {args.inputs};
+  std::vector<std::vector<std::string>> groups;
+  for (const std::string& input : args.inputs) groups.push_back({input});
+  return groups;
+}
+
+void measure_grid(const Source& source, GridInfo& grid, Session& session) {
+  grid.statistics =
+      measure_field(source.reader, kInfoPercentiles, session.console, session.stop.get_token());
+  session.console.end_stage();
+  const Iso iso = default_iso(volume_of(source.reader), &*grid.statistics);
+  grid.iso = iso.value;
+  grid.iso_reason = iso.reason;
+}
+
+/// Grids in the file's order; `#n` names the n-th of them whatever its name.
+void inspect(const std::vector<std::string>& inputs, const SourceOptions& options, Session& session,
+             InputInfo& info) {
+  info.place = inputs.front();
+  const auto grids = describe_source(inputs, options, session.console);
+  for (const GridDescription& description : grids) info.grids.push_back({description, {}, 0, {}});
+  for (std::size_t n = 0; n < info.grids.size(); ++n) {
+    if (!info.grids[n].description.refused.empty()) continue;
+    SourceOptions one = options;
+    if (grids.size() > 1) one.grid = fmt::format("#{}", n);
+    measure_grid(open_source(inputs, one, session.console), info.grids[n], session);
+  }
+}
+
+std::string triple(double x, double y, double z) { return fmt::format("{} {} {}", x, y, z); }
+
+std::string value_lines(const GridInfo& grid) {
+  const FieldStatistics& s = *grid.statistics;
+  const SampleType type = grid.description.volume.type;
+  std::string text;
+  text += fmt::format("  range        {} to {}\n", iso_text(s.min, type), iso_text(s.max, type));
+  if (s.n_nan > 0) text += fmt::format("  nan          {} of {}\n", s.n_nan, s.n_samples);
+  if (s.n_infinite > 0) text += fmt::format("  infinite     {} of {}\n", s.n_infinite, s.n_samples);
+  text += "  percentiles ";
+  for (std::size_t n = 0; n < s.percentiles.size(); ++n) {
+    text += fmt::format(" p{} {}", kInfoPercentiles[n], iso_text(s.percentiles[n], type));
+  }
+  text += fmt::format("\n  iso          {} ({})\n", iso_text(grid.iso, type), grid.iso_reason);
+  return text;
+}
+
+std::string grid_lines(const GridInfo& grid) {
+  const GridDescription& description = grid.description;
+  const Volume& v = description.volume;
+  std::string text =
+      fmt::format("  grid         {}\n", v.name.empty() ? std::string("(unnamed)") : v.name);
+  text += fmt::format("  type         {}{}\n", description.type_name,
+                      v.stored_as.empty() ? "" : fmt::format(", stored as {}", v.stored_as));
+  if (!description.refused.empty()) {
+    return text + fmt::format("  not meshed   {}\n", description.refused);
+  }
+  const IndexBox& box = v.lattice.box;
+  text += fmt::format("  class        {}\n", name_of(v.cls));
+  text += fmt::format("  dims         {} x {} x {}\n", box.extent(0), box.extent(1), box.extent(2));
+  if (box.lo != Index3{}) {
+    text += fmt::format("  first index  {} {} {}\n", box.lo[0], box.lo[1], box.lo[2]);
+  }
+  if (v.n_active) text += fmt::format("  active       {}\n", *v.n_active);
+  const Affine& map = v.lattice.to_world;
+  text +=
+      fmt::format("  spacing      {}\n", triple(map.spacing(0), map.spacing(1), map.spacing(2)));
+  text += fmt::format("  origin       {}\n", triple(map.m[3], map.m[7], map.m[11]));
+  text += fmt::format("  frame        {}, units {}\n", name_of(v.frame), name_of(v.units));
+  return grid.statistics ? text + value_lines(grid) : text;
+}
+
+std::string lines(const InputInfo& info) {
+  std::string text = fmt::format(
+      "{}: {}, {} {}\n", info.place,
+      info.grids.empty() ? std::string("empty") : info.grids.front().description.volume.format,
+      info.grids.size(), info.grids.size() == 1 ? "grid" : "grids");
+  for (std::size_t n = 0; n < info.grids.size(); ++n) {
+    if (n > 0) text += '\n';
+    text += grid_lines(info.grids[n]);
+  }
+  return text;
+}
+
+}  // namespace
+
+int run_info(Session& session, std::vector<std::string> words) {
+  InfoArgs args;
+  parse_words("info", options_of(args), &args.source.inputs, std::move(words));
+  if (args.common.help) {
+    print_out(help_text("info", args.common.verbose > 0));
+    return 0;
+  }
+  if (args.source.inputs.empty()) {
+    throw Error(ErrorKind::usage, "info", "no input: expected a file, a folder, or - for stdin",
+                "see mc info --help");
+  }
+  const CommonOptions common = resolve_common(args.common);
+  const SourceOptions source = resolve_source(args.source);
+  session.console.configure(common);
+  std::optional<base::ThreadLimit> limit;
+  if (common.threads > 0) limit.emplace(common.threads);
+  int status = 0;
+  bool first = true;
+  for (const auto& inputs : grouped(args.source)) {
+    InputInfo info;
+    const auto failure = attempt([&] { inspect(inputs, source, session, info); });
+    if (failure) {
+      const int this_status = show(session.console, *failure);
+      if (status == 0) status = this_status;
+      info.error = fmt::format("{}", fmt::join(failure->lines, "\n"));
+    }
+    if (args.json) {
+      print_out(to_json(info) + "\n");
+    } else if (!failure) {
+      print_out((first ? "" : "\n") + lines(info));
+    }
+    first = false;
+  }
+  return status;
+}
+
+}  // namespace mc::cli

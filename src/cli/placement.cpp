@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "cli/placement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+// Frames are signed permutations of axes, units a scale; both are exact but for the scale itself.
+
+namespace mc::cli {
+
+namespace {
+
+constexpr Affine kTurnAboutSuperior{{-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0}};  // ras <-> lps
+constexpr Affine kLpsToYUp{{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0}};            // (l, s, -p)
+constexpr Affine kRasToYUp{{-1, 0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0}};            // (-r, s, a)
+constexpr Affine kZUpToYUp{{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0}};            // (x, z, -y)
+
+/// Scaling by division where that is exact more often: 0.5 mm are 0.5 / 1000 m, correctly rounded.
+Affine scaled(Affine map, double factor, double divisor) {
+  for (double& term : map.m) term = term * factor / divisor;
+  return map;
+}
+
+Affine converted(const Affine& map, Units from, Units to) {
+  if (from == Units::mm && to == Units::m) return scaled(map, 1, 1000);
+  if (from == Units::m && to == Units::mm) return scaled(map, 1000, 1);
+  return map;
+}
+
+/// Permuting and negating rows leaves -0 behind, which would be written as "-0".
+Affine without_negative_zero(Affine map) {
+  for (double& term : map.m) term += 0.0;
+  return map;
+}
+
+std::array<Vec3, 8> corners(const IndexBox& box, const Affine& to_world) {
+  std::array<Vec3, 8> points;
+  for (unsigned n = 0; n < 8; ++n) {
+    Vec3 index;
+    for (unsigned a = 0; a < 3; ++a) index[a] = ((n >> a) & 1U) != 0 ? box.hi[a] : box.lo[a];
+    points[n] = to_world(index);
+  }
+  return points;
+}
+
+void place_y_up(Placement& at, const PlaceChoice& choice) {
+  const bool medical = at.source_frame != Frame::none;
+  if (at.source_units == Units::unknown && medical) at.source_units = Units::mm;
+  if (choice.units == Units::mm && at.source_units == Units::m) {
+    throw Error(ErrorKind::usage, "--units", "glTF is in metres, and so is the source",
+                "choose ply, obj or stl for millimetres");
+  }
+  if (at.source_frame == Frame::lps) at.to_world = kLpsToYUp.after(at.to_world);
+  if (at.source_frame == Frame::ras) at.to_world = kRasToYUp.after(at.to_world);
+  if (!medical && at.source_up == Up::z) at.to_world = kZUpToYUp.after(at.to_world);
+  at.to_world = converted(at.to_world, at.source_units, Units::m);
+  at.units = at.source_units == Units::unknown ? Units::unknown : Units::m;
+}
+
+void place_as_source(Placement& at, const PlaceChoice& choice) {
+  at.frame = choice.frame.value_or(at.source_frame);
+  if (at.frame != at.source_frame) at.to_world = kTurnAboutSuperior.after(at.to_world);
+  at.units = choice.units.value_or(at.source_units);
+  at.to_world = converted(at.to_world, at.source_units, at.units);
+}
+
+}  // namespace
+
+Placement place(const Volume& volume, const PlaceChoice& choice, std::string_view format) {
+  Placement at;
+  at.to_world = volume.lattice.to_world;
+  at.source_frame = volume.frame == Frame::none ? choice.frame.value_or(Frame::none) : volume.frame;
+  at.source_units =
+      volume.units == Units::unknown ? choice.units.value_or(Units::unknown) : volume.units;
+  if (choice.up && volume.frame != Frame::none) {
+    throw Error(
+        ErrorKind::usage, "--up",
+        std::string("is for sources without a frame, but this one is in ") + name_of(volume.frame));
+  }
+  at.source_up = choice.up.value_or(Up::y);
+  if (format == "glb" || format == "gltf") {
+    place_y_up(at, choice);
+  } else {
+    place_as_source(at, choice);
+  }
+  at.to_world = without_negative_zero(at.to_world);
+  return at;
+}
+
+FloatLoss float_loss(const IndexBox& box, const Affine& to_world) {
+  double largest = 0;
+  for (const Vec3& p : corners(box, to_world)) {
+    for (const double c : p) largest = std::max(largest, std::abs(c));
+  }
+  const double smallest_cell =
+      std::min({to_world.spacing(0), to_world.spacing(1), to_world.spacing(2)});
+  FloatLoss loss;
+  if (largest > std::numeric_limits<float>::max()) {
+    return {std::numeric_limits<double>::infinity(), true};
+  }
+  // Half the distance between neighbouring floats: 24 bits of mantissa, and no finer than the
+  // smallest denormal.
+  const int exponent = largest > 0 ? std::max(std::ilogb(largest), -126) : -126;
+  loss.largest_move = std::ldexp(1.0, exponent - 24);
+  loss.matters = loss.largest_move > smallest_cell / 8192;
+  return loss;
+}
+
+Vec3 double_origin(const IndexBox& box, const Affine& to_world) {
+  Vec3 middle;
+  for (std::size_t a = 0; a < 3; ++a) middle[a] = (double{1} * box.lo[a] + box.hi[a]) / 2;
+  Vec3 origin = to_world(middle);
+  for (double& c : origin) {
+    const bool fits = std::abs(c) <= std::numeric_limits<float>::max();
+    c = fits ? double{static_cast<float>(c)} : c;
+  }
+  return origin;
+}
+
+const char* name_of(Frame frame) {
+  switch (frame) {
+    case Frame::none:
+      return "none";
+    case Frame::ras:
+      return "ras";
+    case Frame::lps:
+      return "lps";
+  }
+  return "none";
+}
+
+const char* name_of(Units units) {
+  switch (units) {
+    case Units::unknown:
+      return "unknown";
+    case Units::mm:
+      return "mm";
+    case Units::m:
+      return "m";
+  }
+  return "unknown";
+}
+
+const char* name_of(Up up) { return up == Up::y ? "y" : "z"; }
+
+}  // namespace mc::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/placement.hpp"
+#include "mc/extract.hpp"
+#include "mc/field.hpp"
+#include "mc/mesh.hpp"
+#include "mc/source.hpp"
+
+// What the program says in JSON: `--report`, `info --json`, `check --json`. Each is one line. Keys
+// are CLI.md's; what is unknown is null.
+
+namespace mc::cli {
+
+struct Stage {
+  std::string name;
+  double seconds = 0;
+  std::optional<std::uint64_t> n_bytes;  ///< read or written by it
+};
+
+/// How an extraction went, filled in as far as it came.
+struct RunReport {
+  int status = 0;
+  std::optional<std::string> error;
+  std::string input;
+  std::optional<Volume> volume;
+  std::optional<Placement> placement;
+  std::optional<std::string> output;
+  std::vector<double> isos;
+  std::optional<Inside> inside;
+  std::vector<MeshTotals> totals;  ///< one an iso
+  std::vector<Stage> stages;
+  std::vector<std::string> warnings;
+};
+
+std::string to_json(const RunReport& report);
+
+/// A grid as `info` sees it.
+struct GridInfo {
+  GridDescription description;
+  std::optional<FieldStatistics> statistics;  ///< of grids that can be meshed
+  double iso = 0;                             ///< suggested; only with statistics
+  std::string iso_reason;
+};
+
+/// The percentiles that `info` shows.
+inline constexpr double kInfoPercentiles[] = {1, 5, 25, 50, 75, 95, 99};
+
+struct InputInfo {
+  std::string place;
+  std::vector<GridInfo> grids;
+  std::optional<std::string> error;
+};
+
+std::string to_json(const InputInfo& info);
+std::string to_json(const std::string& path, const MeshReport& report, bool defective);
+
+const char* name_of(VolumeClass cls);
+
+/// The most memory this process has held, in bytes.
+std::uint64_t peak_bytes();
+
+}  // namespace mc::cli

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "cli/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "cli/command_line.hpp"
+#include "cli/values.hpp"
+
+// Text to plans for the commands that write: defaults filled in, contradictions refused.
+
+namespace mc::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+[[noreturn]] void refuse(std::string_view option, std::string_view fault,
+                         std::string_view remedy = {}) {
+  throw Error(ErrorKind::usage, option, fault, remedy);
+}
+
+/// A name for the output beside the first input: "scans/head.raw" to "head".
+std::string stem_of(const std::string& input) {
+  if (input == "-") return "stdin";
+  fs::path path(input);
+  if (!path.has_filename()) path = path.parent_path();  // a folder written with a slash at its end
+  std::string stem = path.stem().string();
+  std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '#'; });
+  return stem.empty() || stem == "." || stem == ".." ? "volume" : stem;
+}
+
+void check_inputs(std::string_view command, const std::vector<std::string>& inputs) {
+  if (inputs.empty()) {
+    refuse(command, "no input: expected a file, a folder, or - for stdin",
+           fmt::format("see mc {} --help", command));
+  }
+  for (const std::string& input : inputs) {
+    if (input.empty()) refuse(command, "an input's name is empty");
+    if (input == "-" && inputs.size() > 1) refuse("-", "stdin must be the only input");
+  }
+}
+
+[[noreturn]] void refuse_missing_output(std::string_view command, const CommonArgs& common,
+                                        const std::vector<std::string>& inputs,
+                                        std::string_view extension) {
+  refuse(command, "no output: expected -o FILE",
+         fmt::format("for example: mc {} {} -o {}", command, shell_text(common.typed),
+                     shell_text(std::vector{stem_of(inputs.front()) + std::string(extension)})));
+}
+
+void check_output_name(const Text& output) {
+  if (output && output->empty()) refuse("--output", "the output's name is empty");
+}
+
+IsoChoice parse_iso(std::string_view text) {
+  if (text == "otsu") return {IsoChoice::Kind::otsu, 0};
+  if (text.starts_with('p')) {
+    return {IsoChoice::Kind::percentile, parse_number_within("--iso", text.substr(1), 0, 100)};
+  }
+  const bool numeric = !text.empty() && std::string_view("+-.0123456789").find(text.front()) !=
+                                            std::string_view::npos;
+  if (!numeric && text != "nan" && text != "inf") {
+    refuse("--iso", fmt::format("unknown value '{}': expected a number, otsu or pNN", text));
+  }
+  return {IsoChoice::Kind::number, parse_number("--iso", text)};
+}
+
+void resolve_surface(const ExtractArgs& args, ExtractPlan& plan) {
+  if (args.iso) {
+    for (const std::string_view part : split(*args.iso, ',')) plan.isos.push_back(parse_iso(part));
+  }
+  if (plan.isos.size() > 1 && !holds_several_objects(plan.format)) {
+    refuse("--iso",
+           fmt::format("{} values, but {} holds one object a file", plan.isos.size(), plan.format),
+           "choose glb, gltf or obj, or extract them one by one");
+  }
+  if (args.inside) {
+    static constexpr std::array<std::pair<std::string_view, std::optional<Inside>>, 3> kSides{
+        {{"above", Inside::above}, {"below", Inside::below}, {"auto", std::nullopt}}};
+    plan.inside = parse_choice("--inside", *args.inside, kSides);
+  }
+  plan.invert = args.invert;
+  if (args.border) {
+    static constexpr std::array<std::pair<std::string_view, Border>, 2> kBorders{
+        {{"open", Border::open}, {"closed", Border::closed}}};
+    plan.border = parse_choice("--border", *args.border, kBorders);
+  }
+  if (args.region) plan.extract.region = parse_region("--region", *args.region);
+  if (args.topology && *args.topology == "trilinear") {
+    refuse("--topology", "trilinear is unknown to this version: expected faces");
+  }
+  if (args.topology) {
+    static constexpr std::array<std::pair<std::string_view, int>, 1> kRules{{{"faces", 0}}};
+    parse_choice("--topology", *args.topology, kRules);
+  }
+}
+
+void resolve_edges(const ExtractArgs& args, ExtractOptions& extract) {
+  if (args.interpolation) {
+    static constexpr std::array<std::pair<std::string_view, Interpolation>, 2> kHow{
+        {{"linear", Interpolation::linear}, {"midpoint", Interpolation::midpoint}}};
+    extract.interpolation = parse_choice("--interpolation", *args.interpolation, kHow);
+  }
+  const bool midpoint = extract.interpolation == Interpolation::midpoint;
+  if (args.cutoff) extract.cutoff = parse_number_within("--cutoff", *args.cutoff, 0, kInfinity);
+  if (args.min_edge) {
+    extract.min_edge = parse_number_within("--min-edge", *args.min_edge, 0, 0.5);
+  }
+  if (midpoint && args.cutoff) refuse("--cutoff", "means nothing with --interpolation midpoint");
+  if (midpoint && args.min_edge) {
+    refuse("--min-edge", "means nothing with --interpolation midpoint");
+  }
+}
+
+void resolve_normals(const ExtractArgs& args, ExtractPlan& plan) {
+  const bool holds_normals = plan.format != "stl";
+  plan.extract.normals = holds_normals ? Normals::gradient : Normals::none;
+  if (!args.normals) return;
+  static constexpr std::array<std::pair<std::string_view, Normals>, 3> kHow{
+      {{"gradient", Normals::gradient}, {"face", Normals::face}, {"none", Normals::none}}};
+  plan.extract.normals = parse_choice("--normals", *args.normals, kHow);
+  if (!holds_normals && plan.extract.normals != Normals::none) {
+    refuse("--normals", "stl holds no vertex normals, only those of its facets",
+           "choose ply, obj, glb or gltf");
+  }
+}
+
+void resolve_place(const ExtractArgs& args, PlaceChoice& place) {
+  if (args.frame) {
+    static constexpr std::array<std::pair<std::string_view, std::optional<Frame>>, 3> kFrames{
+        {{"source", std::nullopt}, {"ras", Frame::ras}, {"lps", Frame::lps}}};
+    place.frame = parse_choice("--frame", *args.frame, kFrames);
+  }
+  if (args.up) {
+    static constexpr std::array<std::pair<std::string_view, Up>, 2> kAxes{
+        {{"y", Up::y}, {"z", Up::z}}};
+    place.up = parse_choice("--up", *args.up, kAxes);
+  }
+  if (place.frame && place.up) {
+    refuse("--up", "is for sources without a frame, but --frame gives one");
+  }
+  if (args.units) {
+    static constexpr std::array<std::pair<std::string_view, Units>, 2> kUnits{
+        {{"mm", Units::mm}, {"m", Units::m}}};
+    place.units = parse_choice("--units", *args.units, kUnits);
+  }
+}
+
+void resolve_form(const ExtractArgs& args, ExtractPlan& plan) {
+  if (args.ascii && plan.format != "ply" && plan.format != "stl") {
+    refuse("--ascii", fmt::format("is for ply and stl, not {}", plan.format));
+  }
+  if (args.precision && plan.format != "ply") {
+    refuse("--precision", fmt::format("is for ply, not {}", plan.format));
+  }
+  plan.sink.ascii = args.ascii;
+  if (args.precision) {
+    static constexpr std::array<std::pair<std::string_view, Precision>, 2> kHow{
+        {{"float", Precision::f32}, {"double", Precision::f64}}};
+    plan.sink.precision = parse_choice("--precision", *args.precision, kHow);
+  }
+}
+
+/// DIR/stem.TO for every input, each name once.
+std::vector<Job> batch_jobs(const ExtractArgs& args, const std::string& format) {
+  std::vector<Job> jobs;
+  std::map<std::string, std::string> owner;
+  for (const std::string& input : args.source.inputs) {
+    if (input == "-") refuse("--out-dir", "stdin has no name to call its mesh by", "use -o FILE");
+    const std::string output = (fs::path(*args.out_dir) / (stem_of(input) + "." + format)).string();
+    const auto [at, fresh] = owner.emplace(output, input);
+    if (!fresh) {
+      refuse("--out-dir",
+             fmt::format("{} and {} would both be written to {}", at->second, input, output),
+             "convert them one by one");
+    }
+    jobs.push_back({{input}, output});
+  }
+  return jobs;
+}
+
+void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
+  check_output_name(args.output);
+  if (args.output && args.out_dir) refuse("--out-dir", "contradicts --output", "give one of them");
+  plan.sink.force = args.force;
+  plan.sink.to = args.to.value_or("");
+  plan.batch = args.out_dir.has_value();
+  if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
+  if (plan.batch && !args.to) plan.sink.to = "glb";
+  if (!plan.batch && !args.output) {
+    refuse_missing_output("extract", args.common, args.source.inputs,
+                          "." + args.to.value_or("glb"));
+  }
+  plan.format = output_format(plan.batch ? "" : *args.output, plan.sink);
+  if (!is_mesh_format(plan.format)) {
+    refuse(args.to ? "--to" : *args.output,
+           fmt::format("{} holds a volume: expected ply, obj, stl, glb or gltf", plan.format),
+           "use mc sample to write volumes");
+  }
+  plan.sink.to = plan.format;
+  if (plan.batch) {
+    plan.jobs = batch_jobs(args, plan.format);
+  } else {
+    plan.jobs = {{args.source.inputs, *args.output}};
+  }
+  for (const Job& job : plan.jobs) {
+    if (args.report && *args.report == job.output && !args.dry_run) {
+      refuse("--report",
+             job.output == "-" ? "cannot go to stdout with --output -" : "names the output itself",
+             "give another FILE");
+    }
+  }
+  if (args.report && args.report->empty()) refuse("--report", "the report's name is empty");
+}
+
+}  // namespace
+
+ExtractPlan resolve(const ExtractArgs& args) {
+  ExtractPlan plan;
+  check_inputs("extract", args.source.inputs);
+  plan.common = resolve_common(args.common);
+  plan.source = resolve_source(args.source);
+  resolve_output(args, plan);
+  resolve_surface(args, plan);
+  resolve_edges(args, plan.extract);
+  resolve_normals(args, plan);
+  resolve_place(args, plan.place);
+  resolve_form(args, plan);
+  if (args.memory) plan.memory_bytes = parse_size("--memory", *args.memory);
+  plan.report = args.report;
+  plan.dry_run = args.dry_run;
+  plan.allow_empty = args.allow_empty;
+  plan.extract.measure = args.report.has_value();
+  return plan;
+}
+
+SamplePlan resolve(const SampleArgs& args) {
+  SamplePlan plan;
+  check_inputs("sample", args.source.inputs);
+  plan.common = resolve_common(args.common);
+  plan.source = resolve_source(args.source);
+  check_output_name(args.output);
+  if (!args.output) {
+    refuse_missing_output("sample", args.common, args.source.inputs,
+                          "." + args.to.value_or("nrrd"));
+  }
+  plan.sink.force = args.force;
+  plan.sink.to = args.to.value_or("");
+  plan.format = output_format(*args.output, plan.sink);
+  if (is_mesh_format(plan.format)) {
+    refuse(args.to ? "--to" : *args.output,
+           fmt::format("{} holds a mesh: expected vdb, nrrd or raw", plan.format),
+           "use mc extract to write meshes");
+  }
+  plan.sink.to = plan.format;
+  plan.job = {args.source.inputs, *args.output};
+  if (args.region) plan.region = parse_region("--region", *args.region);
+  if (args.memory) plan.memory_bytes = parse_size("--memory", *args.memory);
+  return plan;
+}
+
+}  // namespace mc::cli

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/args.hpp"
+#include "mc/extract.hpp"
+#include "mc/field.hpp"
+#include "mc/sink.hpp"
+#include "mc/source.hpp"
+
+// From text to typed and complete options: the second shape. Everything that the command line alone
+// can get wrong is found here, before any file is opened, and nothing is clamped.
+
+namespace mc::cli {
+
+enum class ProgressMode : std::uint8_t { automatic, always, never, json };
+enum class Up : std::uint8_t { y, z };
+
+/// How a command talks, and how many threads it has.
+struct CommonOptions {
+  ProgressMode progress = ProgressMode::automatic;
+  int threads = 0;  ///< 0: all cores
+  bool quiet = false;
+  bool verbose = false;
+};
+
+/// A surface value as asked for; which number it is may depend on the data.
+struct IsoChoice {
+  enum class Kind : std::uint8_t { number, otsu, percentile };
+  Kind kind = Kind::number;
+  double value = 0;  ///< the number, or the percentile in [0, 100]
+};
+
+/// Where the mesh should lie; unset: as the source says (DESIGN section 5).
+struct PlaceChoice {
+  std::optional<Frame> frame{};  ///< ras or lps
+  std::optional<Up> up{};
+  std::optional<Units> units{};  ///< mm or m
+};
+
+/// One volume that becomes one mesh.
+struct Job {
+  std::vector<std::string> inputs;  ///< one, or the slices of one volume
+  std::string output;               ///< "-" is stdout
+};
+
+struct ExtractPlan {
+  std::vector<Job> jobs;  ///< one, but in a batch
+  bool batch = false;
+  SourceOptions source;
+  SinkOptions sink;
+  std::string format;           ///< of the output: "ply", "obj", "stl", "glb", "gltf"
+  std::vector<IsoChoice> isos;  ///< empty: decided by the volume
+  std::optional<Inside> inside;
+  bool invert = false;
+  std::optional<Border> border;
+  ExtractOptions extract;  ///< all but iso, inside, border, precision and origin
+  PlaceChoice place;
+  std::uint64_t memory_bytes = 1ULL << 30;
+  std::optional<std::string> report;
+  bool dry_run = false;
+  bool allow_empty = false;
+  CommonOptions common;
+};
+
+struct SamplePlan {
+  Job job;
+  SourceOptions source;
+  SinkOptions sink;
+  std::string format;
+  std::optional<IndexBox> region;
+  std::uint64_t memory_bytes = 1ULL << 30;
+  CommonOptions common;
+};
+
+/// All Errors of these are of kind usage.
+CommonOptions resolve_common(const CommonArgs& args);
+SourceOptions resolve_source(const SourceArgs& args);
+ExtractPlan resolve(const ExtractArgs& args);
+SamplePlan resolve(const SampleArgs& args);
+
+}  // namespace mc::cli
