@@ -180,7 +180,7 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string_view candidate : known) {
     const std::size_t distance = edit_distance(name, candidate);
-    const std::size_t near = std::max<std::size_t>(1, std::max(name.size(), candidate.size()) / 3);
+    const std::size_t near = std::min<std::size_t>(3, std::max(name.size(), candidate.size()) / 2);
     if (distance <= near && distance < least) {
       best = candidate;
       least = distance;

@@ -43,7 +43,7 @@ std::uint64_t parse_size(std::string_view option, std::string_view text);
 std::string size_text(std::uint64_t n_bytes);
 
 /// The known name nearest to `name` by edit distance, or "" if none is near.
-/// Source   Levenshtein 1966; near means at most a third of the longer name's letters.
+/// Source   Levenshtein 1966. Near: at most three edits, and half the longer name's letters.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);
 
 /// "; did you mean X?" without the "; ", or "" if nothing is near.

@@ -9,12 +9,13 @@ mc info part.nrrd | grep -E 'dims|origin'
 mc extract v.nrrd --iso 20 -q -o a.ply
 mc extract ball.raw $RAW --spacing 1,2,3 --origin -1,-2,-3 --iso 20 -q -o b.ply
 cmp a.ply b.ply
-mc info v.nrrd nope.nrrd --json | python3 -c '
+mc info v.nrrd nope.nrrd --json > info.json
+python3 -c '
 import json, sys
 for line in sys.stdin:
     if line.startswith("{"):
         info = json.loads(line)
         print(info["input"], info["error"], [g["suggested_iso"] for g in info["grids"]])
     else:
-        print(line, end="")'
+        print(line, end="")' < info.json
 mc sample ball.raw $RAW -o v.nrrd
