@@ -23,7 +23,8 @@ struct ExtractOptions {
   Inside inside =
       Inside::above;  ///< above: value >= iso; below: !(value < iso) is outside. NaN is never solid
   Border border = Border::open;
-  std::optional<IndexBox> region;  ///< only these samples, as if there were no others; inside the box
+  std::optional<IndexBox>
+      region{};  ///< only these samples, as if there were no others; inside the box
   Normals normals = Normals::gradient;
   Interpolation interpolation = Interpolation::linear;
   double cutoff = 0;  ///< edges whose values differ by less take the midpoint; >= 0

@@ -26,7 +26,7 @@ struct SinkOptions {
       precision;  ///< PLY coordinates; unset: f32 unless it would move a vertex
   /// Facts written into the file (PLY/OBJ comments, glTF asset.extras), in order. Never time, host,
   /// path, threads, memory or SIMD target.
-  std::vector<std::pair<std::string, std::string>> provenance;
+  std::vector<std::pair<std::string, std::string>> provenance{};
 };
 
 /// The format that `options.to` or the extension of `path` names ("ply" ... "raw").

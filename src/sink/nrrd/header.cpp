@@ -5,7 +5,7 @@
 
 #include <bit>
 
-#include "sink/volume_names.hpp"
+#include "field/volume_names.hpp"
 
 // NRRD headers. Numbers are printed as the shortest text that reads back the same, without locale.
 
@@ -106,9 +106,9 @@ std::string nrrd_header(const Volume& volume, const SinkOptions& options,
   out += fmt::format("sizes: {} {} {}\n", box.extent(0), box.extent(1), box.extent(2));
   add_placement(out, volume);
   add_pair(out, "name", volume.name);
-  add_pair(out, "class", class_name(volume.cls));
+  add_pair(out, "class", field::class_name(volume.cls));
   add_pair(out, "iso", volume.iso ? fmt::format("{}", *volume.iso) : "");
-  add_pair(out, "border", volume.border ? border_name(*volume.border) : "");
+  add_pair(out, "border", volume.border ? field::border_name(*volume.border) : "");
   if (!data_file.empty()) out += fmt::format("data file: {}\n", data_file);
   return out + "\n";
 }

@@ -27,9 +27,9 @@
 
 #include "base/parallel.hpp"
 #include "field/visit_type.hpp"
+#include "field/volume_names.hpp"
 #include "sink/output_file.hpp"
 #include "sink/vdb/rewritable_stream.hpp"
-#include "sink/volume_names.hpp"
 
 #endif
 
@@ -407,8 +407,8 @@ void describe(openvdb::GridBase& grid, const Volume& volume) {
   const char* usual_name = level_set ? "surface" : "density";
   const bool nameless = volume.name.empty() && volume.format != "vdb";
   grid.setName(nameless ? usual_name : volume.name);
-  put_text(grid, "mc_class", said ? "" : class_name(volume.cls));
-  put_text(grid, "mc_border", volume.border ? border_name(*volume.border) : "");
+  put_text(grid, "mc_class", said ? "" : field::class_name(volume.cls));
+  put_text(grid, "mc_border", volume.border ? field::border_name(*volume.border) : "");
   if (volume.iso) grid.insertMeta("mc_iso", openvdb::DoubleMetadata(*volume.iso));
   if (volume.frame != Frame::none) {
     put_text(grid, "mc_frame", volume.frame == Frame::lps ? "lps" : "ras");

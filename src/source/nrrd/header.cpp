@@ -242,6 +242,7 @@ NrrdHeader parse_nrrd_header(std::string_view text, const std::string& place) {
   NrrdHeader header;
   header.size_bytes = fields.size_bytes();
   header.unknown_fields = fields.unknown();
+  header.pairs = fields.pairs();
   set_dims(fields, header);
   check_kinds(fields, header);
   set_type(fields, header);

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "field/volume_names.hpp"
 #include "source/mapped_planes.hpp"
 #include "source/nrrd/fields.hpp"
 #include "source/nrrd/header.hpp"
@@ -110,6 +114,35 @@ std::size_t samples_at(const MappedFile& file, std::size_t start, std::uint64_t 
   return at + static_cast<std::size_t>(skip);
 }
 
+/// The pairs by which our own files keep what the format has no field for.
+void set_own_pairs(const std::map<std::string, std::string, std::less<>>& pairs,
+                   const std::string& place, Volume& volume) {
+  const auto wrong = [&](std::string_view key, std::string_view value) {
+    return Error(ErrorKind::input, place,
+                 fmt::format("{}:={} is not a value that mc writes", key, quoted_text(value)),
+                 "remove the line");
+  };
+  const auto value_of = [&](std::string_view key) -> std::optional<std::string> {
+    const auto at = pairs.find(key);
+    return at == pairs.end() ? std::nullopt : std::optional(at->second);
+  };
+  volume.name = value_of("mc name").value_or("");
+  if (const auto text = value_of("mc class")) {
+    const auto cls = field::class_named(*text);
+    if (!cls) throw wrong("mc class", *text);
+    volume.cls = *cls;
+  }
+  if (const auto text = value_of("mc border")) {
+    volume.border = field::border_named(*text);
+    if (!volume.border) throw wrong("mc border", *text);
+  }
+  if (const auto text = value_of("mc iso")) {
+    const auto iso = parse_numbers(*text);
+    if (!iso || iso->size() != 1 || !std::isfinite(iso->front())) throw wrong("mc iso", *text);
+    volume.iso = iso->front();
+  }
+}
+
 Volume nrrd_volume(const NrrdHeader& header, const SourceOptions& options,
                    const std::string& place) {
   Volume volume;
@@ -121,6 +154,7 @@ Volume nrrd_volume(const NrrdHeader& header, const SourceOptions& options,
   volume.endian = header.endian.value_or(std::endian::native);
   volume.frame = header.frame;
   volume.units = header.units;
+  set_own_pairs(header.pairs, place, volume);
   return volume;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "field/volume_names.hpp"
 #include "mc/base.hpp"
 #include "source/text.hpp"
 
@@ -85,6 +86,10 @@ std::string refusal(const VdbGrid& grid) {
 VolumeClass volume_class(const VdbGrid& grid) {
   if (scalar_type(grid) == SampleType::u8) {
     return VolumeClass::mask;
+  }
+  if (const auto ours = field::class_named(grid.meta_text("mc_class"));
+      ours && *ours != VolumeClass::unknown) {
+    return *ours;
   }
   const std::string stored = grid.meta_text("class");
   return stored == "level set"    ? VolumeClass::level_set

@@ -102,9 +102,13 @@ std::string VdbGrid::meta_text(std::string_view key) const {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::optional<std::int64_t> VdbGrid::meta_int64(std::string_view key) const {
+namespace {
+
+/// The bytes of a number, where there are as many as it has.
+template <class T>
+std::optional<T> number_in(const VdbMetaMap& meta, std::string_view key) {
   const auto at = meta.find(key);
-  std::int64_t value = 0;
+  T value{};
   if (at == meta.end() || at->second.bytes.size() != sizeof value) {
     return std::nullopt;
   }
@@ -112,14 +116,18 @@ std::optional<std::int64_t> VdbGrid::meta_int64(std::string_view key) const {
   return value;
 }
 
+}  // namespace
+
+std::optional<std::int64_t> VdbGrid::meta_int64(std::string_view key) const {
+  return number_in<std::int64_t>(meta, key);
+}
+
+std::optional<double> VdbGrid::meta_double(std::string_view key) const {
+  return number_in<double>(meta, key);
+}
+
 std::optional<std::array<std::int32_t, 3>> VdbGrid::meta_vec3i(std::string_view key) const {
-  const auto at = meta.find(key);
-  std::array<std::int32_t, 3> value{};
-  if (at == meta.end() || at->second.bytes.size() != sizeof value) {
-    return std::nullopt;
-  }
-  std::memcpy(value.data(), at->second.bytes.data(), sizeof value);
-  return value;
+  return number_in<std::array<std::int32_t, 3>>(meta, key);
 }
 
 bool looks_like_vdb(std::string_view head) {

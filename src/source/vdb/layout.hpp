@@ -70,6 +70,7 @@ struct VdbGrid {
   [[nodiscard]] bool standard_tree() const;
   [[nodiscard]] std::string meta_text(std::string_view key) const;
   [[nodiscard]] std::optional<std::int64_t> meta_int64(std::string_view key) const;
+  [[nodiscard]] std::optional<double> meta_double(std::string_view key) const;
   [[nodiscard]] std::optional<std::array<std::int32_t, 3>> meta_vec3i(std::string_view key) const;
 };
 

@@ -18,6 +18,7 @@
 #include <tuple>
 #include <utility>
 
+#include "field/volume_names.hpp"
 #include "source/placement.hpp"
 #include "source/text.hpp"
 #include "source/vdb/byte_streambuf.hpp"
@@ -322,7 +323,11 @@ class VdbFile {
     volume.format = "vdb";
     volume.type = scalar_type(grid).value_or(SampleType::f32);
     volume.cls = volume_class(grid);
-    volume.units = Units::m;
+    volume.units = grid.meta_text("mc_units") == "mm" ? Units::mm : Units::m;
+    const std::string frame = grid.meta_text("mc_frame");
+    volume.frame = frame == "lps" ? Frame::lps : frame == "ras" ? Frame::ras : Frame::none;
+    volume.iso = grid.meta_double("mc_iso");
+    volume.border = field::border_named(grid.meta_text("mc_border"));
     volume.stored_as = grid.as_half ? "half" : "";
     const std::optional<Affine> map = through_door(place_, naming(grid), [&] {
       GridStream stream(bytes_, layout_, grid);
