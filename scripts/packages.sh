@@ -24,7 +24,7 @@ mc_check_packages=(
   clang:clang++ clang-tidy-14 libclang-rt-14-dev pandoc:pandoc shellcheck:shellcheck
 )
 
-mc_picture_packages=(f3d:f3d xvfb:xvfb-run)
+mc_picture_packages=(python3-vtk9 xvfb:xvfb-run)
 
 # Prints those of the given entries whose package is not installed.
 mc_missing_packages() {
