@@ -24,7 +24,7 @@ struct ExtractOptions {
       Inside::above;  ///< above: value >= iso; below: !(value < iso) is outside. NaN is never solid
   Border border = Border::open;
   std::optional<IndexBox>
-      region{};  ///< only these samples, as if there were no others; inside the box
+      region{};  ///< only these samples, as if there were no others; inside a dense volume's box
   Normals normals = Normals::gradient;
   Interpolation interpolation = Interpolation::linear;
   double cutoff = 0;  ///< edges whose values differ by less take the midpoint; >= 0

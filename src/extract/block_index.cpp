@@ -296,6 +296,25 @@ std::vector<Index3> BlockIndex::candidates() const {
   return blocks;
 }
 
+IndexBox BlockIndex::stored_blocks() const {
+  IndexBox nodes{{0, 0, 0}, {-1, -1, -1}};
+  bool first = true;
+  const auto include = [&](const Index3& lo, std::int32_t width) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      nodes.lo[a] = first ? lo[a] : std::min(nodes.lo[a], lo[a]);
+      nodes.hi[a] = first ? lo[a] + width - 1 : std::max(nodes.hi[a], lo[a] + width - 1);
+    }
+    first = false;
+  };
+  for (const Node& node : nodes_) include(node.key, 1);
+  for (const BigTile& tile : big_tiles_) include(tile.origin, tile.size);
+  for (std::size_t a = 0; a < 3; ++a) {
+    nodes.lo[a] *= 8;
+    nodes.hi[a] = nodes.hi[a] * 8 + 7;
+  }
+  return nodes;
+}
+
 std::uint64_t BlockIndex::bytes() const {
   return nodes_.capacity() * sizeof(Node) + (slots_.capacity() + entries_.capacity()) * 4 +
          constants_.capacity() * sizeof(Constant) + big_tiles_.capacity() * sizeof(BigTile);

@@ -48,6 +48,10 @@ class BlockIndex {
   /// their lower neighbours, and where constant blocks of either side meet. Ordered by (z, y, x).
   [[nodiscard]] std::vector<Index3> candidates() const;
 
+  /// Blocks (inclusive) that hold every leaf and tile, up to a node's width more.
+  [[nodiscard]] IndexBox stored_blocks() const;
+  [[nodiscard]] bool background_above() const { return background_.above; }
+
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:

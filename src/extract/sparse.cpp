@@ -139,13 +139,15 @@ void SparsePlan::find_blocks() {
     }
     return true;
   };
+  const auto reaches = [](std::int32_t x) { return x <= -kReach || x >= kReach; };
+  bool too_far = options_.region &&
+                 (std::ranges::any_of(box_.lo, reaches) || std::ranges::any_of(box_.hi, reaches));
   for (const Index3& block : blocks_) {
-    for (const std::int32_t x : block) {
-      if (x <= -kReach / 8 || x >= kReach / 8) {
-        throw Error(ErrorKind::limit, reader_.volume().name,
-                    "the grid reaches past index +-2^30, beyond what can be extracted");
-      }
-    }
+    too_far = too_far || std::ranges::any_of(origin_of(block), reaches);
+  }
+  if (too_far) {
+    throw Error(ErrorKind::limit, reader_.volume().name,
+                "the grid or region reaches past index +-2^30, beyond what can be extracted");
   }
   if (!options_.region) return;
   blocks_.erase(
@@ -156,11 +158,19 @@ void SparsePlan::find_blocks() {
 
 /// With a closed border, constant blocks at the region's faces hold a surface too.
 void SparsePlan::add_region_faces() {
-  const Index3 lo = block_of(step(step(step(box_.lo, 0, -1), 1, -1), 2, -1));
-  const Index3 hi = block_of(step(step(step(box_.hi, 0), 1), 2));
+  Index3 lo = block_of(step(step(step(box_.lo, 0, -1), 1, -1), 2, -1));
+  Index3 hi = block_of(step(step(step(box_.hi, 0), 1), 2));
   // The blocks of the outer layer, and of the samples next to it.
   const Index3 lo_in = block_of(box_.lo);
   const Index3 hi_in = block_of(box_.hi);
+  if (index_.background_above() == above_outside_) {
+    // Where nothing is stored the border parts like from like.
+    const IndexBox stored = index_.stored_blocks();
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a] = std::max(lo[a], stored.lo[a] - 1);
+      hi[a] = std::min(hi[a], stored.hi[a]);
+    }
+  }
   for (std::int32_t z = lo[2]; z <= hi[2]; ++z) {
     for (std::int32_t y = lo[1]; y <= hi[1]; ++y) {
       const bool face = z <= lo_in[2] || z >= hi_in[2] || y <= lo_in[1] || y >= hi_in[1];

@@ -29,14 +29,18 @@ std::uint64_t needed(const pipe::TaskList& tasks, std::size_t n_slots) {
   return tasks.held_bytes(n_slots) + n_slots * tasks.chunk_bytes();
 }
 
+std::string kibibytes(std::uint64_t bytes) {
+  return std::to_string((bytes + 1023) / 1024) + " KiB";
+}
+
 /// As many slots as the memory allows: the fewer, the fewer threads have work.
 std::size_t slots_within(const pipe::TaskList& tasks, std::uint64_t memory_bytes) {
   std::size_t n_slots = slots_for(base::thread_count());
   while (needed(tasks, n_slots) > memory_bytes) {
     if (n_slots == 1) {
       throw Error(ErrorKind::limit, "--memory",
-                  "this run needs about " + std::to_string((needed(tasks, 1) >> 20U) + 1) +
-                      " MiB, but " + std::to_string(memory_bytes >> 20U) + " MiB are allowed",
+                  "this run needs about " + kibibytes(needed(tasks, 1)) + ", but only " +
+                      kibibytes(memory_bytes) + " are allowed",
                   "raise --memory or extract in parts with --region");
     }
     n_slots = (n_slots + 1) / 2;

@@ -110,7 +110,8 @@ void NrrdFields::take_line(std::string_view line, std::size_t number) {
     throw fault(fmt::format("{}: \"field: value\" was expected", quoted_text(line)));
   }
   if (line.substr(colon).starts_with(":=")) {
-    return;  // a key of some program's own
+    pairs_.emplace(line.substr(0, colon), trimmed(line.substr(colon + 2)));
+    return;
   }
   const std::string name = field_name(line.substr(0, colon));
   if (std::ranges::find(kKnown, name) == kKnown.end()) {

@@ -33,6 +33,10 @@ class NrrdFields {
 
   /// The lines below `data file: LIST`.
   [[nodiscard]] const std::vector<std::string>& list_after_data_file() const { return list_; }
+  /// "key:=value" pairs, which are each program's own; the first of a key.
+  [[nodiscard]] const std::map<std::string, std::string, std::less<>>& pairs() const {
+    return pairs_;
+  }
   [[nodiscard]] const std::vector<std::string>& unknown() const { return unknown_; }
   [[nodiscard]] std::size_t size_bytes() const { return size_bytes_; }
 
@@ -45,6 +49,7 @@ class NrrdFields {
 
   std::string place_;
   std::map<std::string, Value, std::less<>> values_;
+  std::map<std::string, std::string, std::less<>> pairs_;
   std::vector<std::string> list_;
   std::vector<std::string> unknown_;
   std::size_t size_bytes_ = 0;

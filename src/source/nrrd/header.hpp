@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,7 @@ struct NrrdHeader {
   Affine to_world;
   Frame frame = Frame::none;
   Units units = Units::unknown;
+  std::map<std::string, std::string, std::less<>> pairs;  ///< "key:=value"
   std::vector<std::string> unknown_fields;
 };
 

@@ -114,6 +114,17 @@ std::size_t samples_at(const MappedFile& file, std::size_t start, std::uint64_t 
   return at + static_cast<std::size_t>(skip);
 }
 
+/// Undoes the format's escapes in pairs: "\\n" and "\\\\".
+std::string unescaped(std::string_view text) {
+  std::string out;
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    const bool escape = text[n] == '\\' && n + 1 < text.size();
+    if (escape) ++n;
+    out += escape && text[n] == 'n' ? '\n' : text[n];
+  }
+  return out;
+}
+
 /// The pairs by which our own files keep what the format has no field for.
 void set_own_pairs(const std::map<std::string, std::string, std::less<>>& pairs,
                    const std::string& place, Volume& volume) {
@@ -126,7 +137,7 @@ void set_own_pairs(const std::map<std::string, std::string, std::less<>>& pairs,
     const auto at = pairs.find(key);
     return at == pairs.end() ? std::nullopt : std::optional(at->second);
   };
-  volume.name = value_of("mc name").value_or("");
+  volume.name = unescaped(value_of("mc name").value_or(""));
   if (const auto text = value_of("mc class")) {
     const auto cls = field::class_named(*text);
     if (!cls) throw wrong("mc class", *text);
