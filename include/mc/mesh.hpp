@@ -34,7 +34,7 @@ struct MeshTotals {
   std::uint64_t n_boundary_edges = 0;
   Bounds bounds;                 ///< of the vertices as stored
   std::optional<double> area;    ///< only when measured
-  std::optional<double> volume;  ///< signed, positive for outward winding; only when measured
+  std::optional<double> volume;  ///< positive for outward winding; only when measured and closed
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
   [[nodiscard]] std::int64_t euler() const;

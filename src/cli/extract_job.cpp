@@ -33,6 +33,17 @@ std::uint64_t sample_bytes(const VolumeReader& reader) {
   return n;
 }
 
+/// Whether to count before making: where counting costs nothing, or one cheap read and the mesh
+/// might be more than a format can hold. A mesh has at most 132 bytes a sample, and 4 GiB is the
+/// least limit.
+bool worth_counting(const VolumeReader& reader) {
+  constexpr std::uint64_t kBytesPerSample = 3 * 24 + 5 * 12;
+  if (std::holds_alternative<std::unique_ptr<LeafReader>>(reader)) return true;
+  const SlabReader& dense = *std::get<std::unique_ptr<SlabReader>>(reader);
+  const std::uint64_t n_samples = sample_bytes(reader) / sample_size(dense.volume().type);
+  return dense.rereads_cheaply() && n_samples > (std::uint64_t{1} << 32U) / kBytesPerSample;
+}
+
 /// What one job knows by and by.
 class Extraction {
  public:
@@ -164,6 +175,7 @@ RunOptions Extraction::run_options(const Iso& iso) const {
   options.object.precision = needs_.precision;
   options.object.origin = options.extract.origin;
   options.memory_bytes = plan_.memory_bytes;
+  options.count_first = worth_counting(reader());
   options.to_world = placement_.to_world;
   return options;
 }

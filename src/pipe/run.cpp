@@ -69,6 +69,9 @@ class Sum {
   }
   [[nodiscard]] MeshTotals totals(const Vec3& origin) const {
     MeshTotals out = totals_;
+    if (out.n_boundary_edges != 0) {
+      out.volume.reset();  // an open surface encloses none
+    }
     if (!out.bounds.empty()) {
       for (std::size_t a = 0; a < 3; ++a) {
         out.bounds.lo[a] += origin[a];
@@ -110,6 +113,8 @@ void run_tasks(std::string_view name, const pipe::TaskList& tasks, std::size_t n
       });
 }
 
+Error no_surface() { return {ErrorKind::empty, {}, "no surface at this iso"}; }
+
 }  // namespace
 
 std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options) {
@@ -135,6 +140,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
         [&](const pipe::TaskResult& r) { counted.add(r.totals); });
     object.n_vertices = counted.totals({}).n_vertices;
     object.n_triangles = counted.totals({}).n_triangles;
+    if (object.n_triangles == 0U && !allow_empty) throw no_surface();
   }
   Sum sum(options.extract.measure);
   bool begun = false;
@@ -157,7 +163,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
       });
   const MeshTotals totals = sum.totals(object.origin);
   if (totals.n_triangles == 0 && !allow_empty) {
-    throw Error(ErrorKind::empty, {}, "no surface at this iso");
+    throw no_surface();
   }
   begin_once();
   sink.end_object(totals);

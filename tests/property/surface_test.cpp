@@ -54,8 +54,11 @@ void expect_sound(const Collected& got, bool closed) {
   ASSERT_EQ(report.duplicate_vertices, 0U);
   ASSERT_EQ(report.boundary_edges, got.totals.n_boundary_edges);
   ASSERT_EQ(report.euler, got.totals.euler());
+  ASSERT_EQ(got.totals.volume.has_value(), got.totals.area.has_value() && report.closed());
   if (got.totals.volume) {
     ASSERT_NEAR(report.volume, *got.totals.volume, 1e-6 * (1 + report.area));
+  }
+  if (got.totals.area) {
     ASSERT_NEAR(report.area, *got.totals.area, 1e-6 * (1 + report.area));
   }
 }

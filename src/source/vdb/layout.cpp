@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstring>
+#include <set>
 
 #include "mc/base.hpp"
 
@@ -65,19 +66,34 @@ VdbMetaMap read_meta_map(VdbCursor& cursor) {
 }
 
 std::string VdbGrid::numbered_name() const {
-  const std::size_t at = unique_name.find(kNumberFollows);
-  return at == std::string::npos ? name : fmt::format("{}[{}]", name, unique_name.substr(at + 1));
+  return number.empty() ? name : fmt::format("{}[{}]", name, number);
 }
 
 std::string VdbGrid::shown_name() const { return shares_name ? numbered_name() : name; }
 
-void mark_shared_names(std::vector<VdbGrid>& grids) {
-  std::map<std::string_view, int> n_of_name;
-  for (const VdbGrid& grid : grids) {
-    ++n_of_name[grid.name];
-  }
+void number_grids(std::vector<VdbGrid>& grids) {
+  std::map<std::string_view, std::vector<VdbGrid*>> of_name;
   for (VdbGrid& grid : grids) {
-    grid.shares_name = n_of_name[grid.name] > 1;
+    const std::size_t at = grid.unique_name.find(kNumberFollows);
+    grid.number = at == std::string::npos ? "" : grid.unique_name.substr(at + 1);
+    of_name[grid.name].push_back(&grid);
+  }
+  for (const auto& [name, sharing] : of_name) {
+    if (sharing.size() < 2) {
+      continue;
+    }
+    std::set<std::int32_t> indices;
+    for (VdbGrid* grid : sharing) {
+      grid->shares_name = true;
+      if (const auto index = grid->meta_int32("index")) {
+        indices.insert(*index);
+      }
+    }
+    if (indices.size() == sharing.size()) {
+      for (VdbGrid* grid : sharing) {
+        grid->number = std::to_string(*grid->meta_int32("index"));
+      }
+    }
   }
 }
 
@@ -120,6 +136,10 @@ std::optional<T> number_in(const VdbMetaMap& meta, std::string_view key) {
 
 std::optional<std::int64_t> VdbGrid::meta_int64(std::string_view key) const {
   return number_in<std::int64_t>(meta, key);
+}
+
+std::optional<std::int32_t> VdbGrid::meta_int32(std::string_view key) const {
+  return number_in<std::int32_t>(meta, key);
 }
 
 std::optional<double> VdbGrid::meta_double(std::string_view key) const {

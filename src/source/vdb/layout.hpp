@@ -52,6 +52,7 @@ struct VdbGrid {
   std::string unique_name;  ///< with 0x1E and a number where several grids share a name
   std::string name;
   bool shares_name = false;  ///< with another grid of the file
+  std::string number;        ///< that tells it from those; empty where there is none
   std::string tree_type;     ///< "Tree_float_5_4_3", without the suffix for half
   bool as_half = false;
   std::string instance_of;  ///< unique name of the grid whose tree this one shares
@@ -69,13 +70,16 @@ struct VdbGrid {
   [[nodiscard]] std::string type_name() const;
   [[nodiscard]] bool standard_tree() const;
   [[nodiscard]] std::string meta_text(std::string_view key) const;
+  [[nodiscard]] std::optional<std::int32_t> meta_int32(std::string_view key) const;
   [[nodiscard]] std::optional<std::int64_t> meta_int64(std::string_view key) const;
   [[nodiscard]] std::optional<double> meta_double(std::string_view key) const;
   [[nodiscard]] std::optional<std::array<std::int32_t, 3>> meta_vec3i(std::string_view key) const;
 };
 
-/// Sets shares_name of all grids of a file.
-void mark_shared_names(std::vector<VdbGrid>& grids);
+/// Sets shares_name and number of all grids of a file. Grids of one name go by the metadata "index"
+/// that Houdini gives each (its primitive's number) where all of them have a different one, else by
+/// the number that OpenVDB added to the name: the two may disagree.
+void number_grids(std::vector<VdbGrid>& grids);
 
 struct VdbLayout {
   std::uint32_t file_version = 0;

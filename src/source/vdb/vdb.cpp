@@ -310,7 +310,7 @@ class VdbFile {
       grids_.push_back(read_vdb_grid(bytes_, layout_, at, place_));
       at = layout_.has_offsets ? grids_.back().end : read_in_order(grids_.back());
     }
-    mark_shared_names(grids_);
+    number_grids(grids_);
   }
 
   [[nodiscard]] std::span<const VdbGrid> grids() const { return grids_; }
