@@ -6,6 +6,8 @@
 #include <cassert>
 #include <limits>
 
+#include "extract/bit_row.hpp"
+
 namespace mc::extraction {
 
 namespace {
@@ -31,23 +33,6 @@ class SlabSampler {
   const Slab& slab_;
   IndexBox box_;
 };
-
-std::uint64_t next_samples(const std::uint64_t* row, std::size_t w, std::size_t n_words) {
-  return (row[w] >> 1) | (w + 1 < n_words ? row[w + 1] << 63 : 0);
-}
-
-/// Ones for the cells (and i-edges) that start in word w of a row of n samples.
-std::uint64_t cell_mask(std::size_t n_samples, std::size_t w) {
-  const std::size_t left = n_samples - 1 - std::min(n_samples - 1, w * 64);
-  return left >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << left) - 1;
-}
-
-template <class F>
-void for_each_bit(std::uint64_t word, std::size_t w, F&& f) {
-  for (; word != 0; word &= word - 1) {
-    f(static_cast<std::int32_t>(w * 64) + std::countr_zero(word));
-  }
-}
 
 /// Crossed edges of the faces between two neighbouring rows, an edge counted for each face it is
 /// in: each face has none, two or four, and half as many sides of triangles.
@@ -188,16 +173,16 @@ void DenseExtractor::write_plane(const Plane& plane, std::int32_t p, Writer& wri
     for (std::size_t w = 0; w < n_words_; ++w) {
       const std::uint64_t crossed =
           (row[w] ^ next_samples(row, w, n_words_)) & cell_mask(row_samples_, w);
-      for_each_bit(crossed, w, [&](std::int32_t i) {
-        writer.write({{first[0] + i, row_index, first[2]}, 0});
+      for_each_bit(crossed, [&](int bit) {
+        writer.write({{first[0] + index_in_row(w, bit), row_index, first[2]}, 0});
       });
     }
     if (j + 1 == n_rows_) {
       continue;
     }
     for (std::size_t w = 0; w < n_words_; ++w) {
-      for_each_bit(row[w] ^ row[w + n_words_], w, [&](std::int32_t i) {
-        writer.write({{first[0] + i, row_index, first[2]}, 1});
+      for_each_bit(row[w] ^ row[w + n_words_], [&](int bit) {
+        writer.write({{first[0] + index_in_row(w, bit), row_index, first[2]}, 1});
       });
     }
   }
@@ -210,9 +195,10 @@ void DenseExtractor::write_between(std::int32_t p, Writer& writer) const {
   for (std::size_t j = 0; j < n_rows_; ++j) {
     const std::uint64_t* a = lower_.words.data() + j * n_words_;
     const std::uint64_t* b = upper_.words.data() + j * n_words_;
+    const std::int32_t row_index = first[1] + static_cast<std::int32_t>(j);
     for (std::size_t w = 0; w < n_words_; ++w) {
-      for_each_bit(a[w] ^ b[w], w, [&](std::int32_t i) {
-        writer.write({{first[0] + i, first[1] + static_cast<std::int32_t>(j), first[2]}, 2});
+      for_each_bit(a[w] ^ b[w], [&](int bit) {
+        writer.write({{first[0] + index_in_row(w, bit), row_index, first[2]}, 2});
       });
     }
   }
@@ -288,9 +274,9 @@ LayerSum DenseExtractor::measure(std::int32_t p, const Vertices& vertices) const
           all &= words[w] & next;
         }
       }
-      for_each_bit(any & ~all & cell_mask(row_samples_, w), w, [&](std::int32_t i) {
-        const Index3 cell{box_.lo[0] - pad + i, box_.lo[1] - pad + static_cast<std::int32_t>(j),
-                          box_.lo[2] - pad + p};
+      for_each_bit(any & ~all & cell_mask(row_samples_, w), [&](int bit) {
+        const Index3 cell{box_.lo[0] - pad + index_in_row(w, bit),
+                          box_.lo[1] - pad + static_cast<std::int32_t>(j), box_.lo[2] - pad + p};
         add_cell(vertices, cell, kCases[vertices.case_of(cell)], apex_, sum);
       });
     }

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <type_traits>
 
+#include "extract/bit_row.hpp"
 #include "extract/case_table.hpp"
 #include "extract/row_kernels.hpp"
 
@@ -159,19 +160,6 @@ void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint
   });
 }
 
-/// Word w of a row shifted down by one sample: bit i is sample i + 1.
-inline std::uint64_t next_samples(const std::uint64_t* row, std::size_t w, std::size_t n_words) {
-  return (row[w] >> 1) | (w + 1 < n_words ? row[w + 1] << 63 : 0);
-}
-
-/// Ones for the i-edges (and cells) that start in word w of a row of n samples.
-inline std::uint64_t edge_mask(std::size_t n_samples, std::size_t w) {
-  const std::size_t n_edges = n_samples - 1;
-  const std::size_t first = w * 64;
-  if (n_edges <= first) return 0;
-  return n_edges - first >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << (n_edges - first)) - 1;
-}
-
 inline std::uint32_t ones(std::uint64_t word) {
   return static_cast<std::uint32_t>(std::popcount(word));
 }
@@ -183,7 +171,7 @@ std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, std::uint3
     i_start[j] = next;
     for (std::size_t w = 0; w < plane.words_per_row; ++w) {
       next += ones((row[w] ^ next_samples(row, w, plane.words_per_row)) &
-                   edge_mask(plane.n_samples, w));
+                   cell_mask(plane.n_samples, w));
     }
     j_start[j] = next;
     if (j + 1 < plane.n_rows) {
@@ -282,7 +270,7 @@ std::size_t emit_row(const CellLayer& layer, std::size_t j, bool flip, std::uint
   std::uint32_t* const first = out;
   for (std::size_t w = 0; w < n_words; ++w) {
     const CornerWords corners(rows, w, n_words);
-    const std::uint64_t mask = edge_mask(layer.lower.n_samples, w);
+    const std::uint64_t mask = cell_mask(layer.lower.n_samples, w);
     std::uint64_t active = corners.active() & mask;
     if (active == 0) {
       continue;  // then no crossed edge of a later cell starts here either
@@ -321,7 +309,7 @@ std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
                                           upper.row(j + 1)};
     for (std::size_t w = 0; w < lower.words_per_row; ++w) {
       const CornerWords corners(rows, w, lower.words_per_row);
-      std::uint64_t active = corners.active() & edge_mask(lower.n_samples, w);
+      std::uint64_t active = corners.active() & cell_mask(lower.n_samples, w);
       for (; active != 0; active &= active - 1) {
         n += kCases[corners.cell_case(static_cast<unsigned>(std::countr_zero(active)))].n_triangles;
       }

@@ -2,11 +2,11 @@
 #include "extract/sparse.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <limits>
 
 #include "base/parallel.hpp"
+#include "extract/bit_row.hpp"
 #include "extract/row_kernels.hpp"
 
 namespace mc::extraction {
@@ -79,13 +79,6 @@ class BlockSampler {
   mutable std::array<const std::byte*, 27> values_{};
   mutable std::array<T, 27> constants_{};
 };
-
-template <class F>
-void for_each_bit(std::uint64_t word, F&& f) {
-  for (; word != 0; word &= word - 1) {
-    f(std::countr_zero(word));
-  }
-}
 
 }  // namespace
 
