@@ -3,8 +3,8 @@
 
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
+#include "cli/invocation.hpp"
 #include "cli/report.hpp"
-#include "cli/session.hpp"
 #include "mc/source.hpp"
 
 // `mc check`: counts what is wrong with meshes.
@@ -76,7 +76,7 @@ int check_one(const std::string& path, const CheckArgs& args) {
 
 }  // namespace
 
-int run_check(Session& session, std::vector<std::string> words) {
+int run_check(Invocation& invocation, std::vector<std::string> words) {
   CheckArgs args;
   parse_words("check", options_of(args), &args.inputs, std::move(words));
   if (args.common.help) {
@@ -87,12 +87,12 @@ int run_check(Session& session, std::vector<std::string> words) {
     throw Error(ErrorKind::usage, "check", "no mesh: expected a file, or - for stdin",
                 "see mc check --help");
   }
-  session.console.configure(resolve_common(args.common));
+  invocation.console.configure(resolve_common(args.common));
   int status = 0;
   for (const std::string& path : args.inputs) {
     int this_status = 0;
     const auto failure = attempt([&] { this_status = check_one(path, args); });
-    if (failure) this_status = show(session.console, *failure);
+    if (failure) this_status = show(invocation.console, *failure);
     if (status == 0) status = this_status;
   }
   return status;

@@ -7,8 +7,8 @@
 #include "cli/command_line.hpp"
 #include "cli/extract_job.hpp"
 #include "cli/help.hpp"
+#include "cli/invocation.hpp"
 #include "cli/report_file.hpp"
-#include "cli/session.hpp"
 
 // `mc extract`: volumes to meshes, one or a batch of them.
 
@@ -17,22 +17,23 @@ namespace mc::cli {
 namespace {
 
 /// One job, whatever becomes of it: its report is complete and its failure told.
-int run_reported(const ExtractPlan& plan, const Job& job, Session& session, ReportFile& file) {
+int run_reported(const ExtractPlan& plan, const Job& job, Invocation& invocation,
+                 ReportFile& file) {
   RunReport report;
-  const auto failure = attempt([&] { run_job(plan, job, session, report); });
+  const auto failure = attempt([&] { run_job(plan, job, invocation, report); });
   if (failure) {
-    report.status = show(session.console, *failure);
+    report.status = show(invocation.console, *failure);
     report.error = fmt::format("{}", fmt::join(failure->lines, "\n"));
   }
-  report.warnings = session.console.take_warnings();
+  report.warnings = invocation.console.take_warnings();
   file.add_line(to_json(report));
   return report.status;
 }
 
 /// A command line that is wrong is reported too, as far as it can be read.
-int report_usage(const ExtractArgs& args, Session& session, const Failure& failure) {
+int report_usage(const ExtractArgs& args, Invocation& invocation, const Failure& failure) {
   RunReport report;
-  report.status = show(session.console, failure);
+  report.status = show(invocation.console, failure);
   report.error = fmt::format("{}", fmt::join(failure.lines, "\n"));
   if (!args.source.inputs.empty()) report.input = args.source.inputs.front();
   report.output = args.output;
@@ -47,7 +48,7 @@ int report_usage(const ExtractArgs& args, Session& session, const Failure& failu
 
 }  // namespace
 
-int run_extract(Session& session, std::vector<std::string> words) {
+int run_extract(Invocation& invocation, std::vector<std::string> words) {
   ExtractArgs args;
   args.common.typed = words;
   const std::vector<Option> options = options_of(args);
@@ -58,17 +59,17 @@ int run_extract(Session& session, std::vector<std::string> words) {
   }
   ExtractPlan plan;
   if (const auto failure = attempt([&] { plan = resolve(args); })) {
-    return report_usage(args, session, *failure);
+    return report_usage(args, invocation, *failure);
   }
-  session.console.configure(plan.common);
+  invocation.console.configure(plan.common);
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
   ReportFile file(plan.report);
   int status = 0;
   for (const Job& job : plan.jobs) {
-    const int job_status = run_reported(plan, job, session, file);
+    const int job_status = run_reported(plan, job, invocation, file);
     if (status == 0) status = job_status;
-    if (session.stop.stop_requested()) break;
+    if (invocation.stop.stop_requested()) break;
   }
   file.finish();
   return status;

@@ -47,8 +47,8 @@ bool worth_counting(const VolumeReader& reader) {
 /// What one job knows by and by.
 class Extraction {
  public:
-  Extraction(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report)
-      : plan_(plan), job_(job), session_(session), report_(report) {}
+  Extraction(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report)
+      : plan_(plan), job_(job), invocation_(invocation), report_(report) {}
 
   void open();
   void place_mesh();
@@ -71,7 +71,7 @@ class Extraction {
 
   const ExtractPlan& plan_;
   const Job& job_;
-  Session& session_;
+  Invocation& invocation_;
   RunReport& report_;
   std::optional<Source> source_;
   Placement placement_;
@@ -87,26 +87,26 @@ void Extraction::timed(const char* stage, Work&& work) {
   report_.stages.push_back({stage, 0, std::nullopt});
   const std::size_t at = report_.stages.size() - 1;
   work();
-  session_.console.end_stage();
+  invocation_.console.end_stage();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
   report_.stages[at].seconds = seconds.count();
   if (source_) report_.stages[at].n_bytes = sample_bytes(reader());
-  session_.console.detail(fmt::format("{}: {:.3f} s", stage, seconds.count()));
+  invocation_.console.detail(fmt::format("{}: {:.3f} s", stage, seconds.count()));
 }
 
 void Extraction::open() {
   report_.input = job_.inputs.front();
   report_.output = job_.output;
   timed("open", [&] {
-    source_.emplace(open_source(job_.inputs, plan_.source, session_.console));
+    source_.emplace(open_source(job_.inputs, plan_.source, invocation_.console));
     report_.input = source_->place;
     report_.volume = volume();
   });
   check_region(reader(), plan_.extract.region);
   if (!plan_.source.grid && !source_->other_grids.empty()) {
-    session_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
-                                      source_->place, volume().name,
-                                      fmt::join(source_->other_grids, ", ")));
+    invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
+                                         source_->place, volume().name,
+                                         fmt::join(source_->other_grids, ", ")));
   }
 }
 
@@ -117,10 +117,10 @@ void Extraction::place_mesh() {
   needs_ = mesh_needs(plan_.format, plan_.sink, loss.matters);
   if (!loss.matters || needs_.relative_origin) return;
   if (needs_.precision == Precision::f64) {
-    session_.console.note(fmt::format(
+    invocation_.console.note(fmt::format(
         "coordinates are doubles: float would move vertices by up to {:.3g}", loss.largest_move));
   } else {
-    session_.console.warn(fmt::format(
+    invocation_.console.warn(fmt::format(
         "{}: float coordinates move vertices by up to {:.3g}, more than 1/8192 of a cell; "
         "ply or glb keep them in place",
         plan_.format, loss.largest_move));
@@ -130,7 +130,8 @@ void Extraction::place_mesh() {
 FieldStatistics Extraction::measure(std::span<const double> percentiles) {
   FieldStatistics statistics;
   timed("statistics", [&] {
-    statistics = measure_field(reader(), percentiles, session_.console, session_.stop.get_token());
+    statistics =
+        measure_field(reader(), percentiles, invocation_.console, invocation_.stop.get_token());
   });
   return statistics;
 }
@@ -145,8 +146,8 @@ void Extraction::choose_surface() {
   for (const Iso& iso : isos_) {
     report_.isos.push_back(iso.value);
     const std::string value = iso_text(iso.value, volume().type);
-    session_.console.note(iso.reason.empty() ? fmt::format("iso {}", value)
-                                             : fmt::format("iso {} ({})", value, iso.reason));
+    invocation_.console.note(iso.reason.empty() ? fmt::format("iso {}", value)
+                                                : fmt::format("iso {} ({})", value, iso.reason));
   }
 }
 
@@ -202,8 +203,8 @@ SinkOptions Extraction::sink_options() const {
 
 MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
   try {
-    return run(reader(), run_options(iso), plan_.allow_empty, sink, session_.console,
-               session_.stop.get_token());
+    return run(reader(), run_options(iso), plan_.allow_empty, sink, invocation_.console,
+               invocation_.stop.get_token());
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::empty) throw;
   }
@@ -225,7 +226,7 @@ MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
 
 void Extraction::note_border(const MeshTotals& totals) const {
   if (border_ != Border::open || plan_.border || totals.n_boundary_edges == 0) return;
-  session_.console.note(fmt::format(
+  invocation_.console.note(fmt::format(
       "the mesh is open at the volume's border: {} boundary edges; --border closed caps it",
       totals.n_boundary_edges));
 }
@@ -238,8 +239,8 @@ void Extraction::write() {
   });
   for (const MeshTotals& totals : report_.totals) {
     note_border(totals);
-    session_.console.detail(fmt::format("{}: {} vertices, {} triangles", job_.output,
-                                        totals.n_vertices, totals.n_triangles));
+    invocation_.console.detail(fmt::format("{}: {} vertices, {} triangles", job_.output,
+                                           totals.n_vertices, totals.n_triangles));
   }
 }
 
@@ -266,8 +267,8 @@ void Extraction::describe() const {
 
 }  // namespace
 
-void run_job(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report) {
-  Extraction extraction(plan, job, session, report);
+void run_job(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report) {
+  Extraction extraction(plan, job, invocation, report);
   extraction.open();
   extraction.place_mesh();
   extraction.choose_surface();

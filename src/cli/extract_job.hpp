@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cli/invocation.hpp"
 #include "cli/report.hpp"
 #include "cli/resolve.hpp"
-#include "cli/session.hpp"
 
 // One volume to one mesh.
 
@@ -11,6 +11,6 @@ namespace mc::cli {
 
 /// Runs `job` of `plan`, or with --dry-run says what it would do; fills `report` as far as it
 /// comes, also when it throws.
-void run_job(const ExtractPlan& plan, const Job& job, Session& session, RunReport& report);
+void run_job(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report);
 
 }  // namespace mc::cli

@@ -8,7 +8,7 @@
 
 #include "cli/args.hpp"
 #include "cli/command_line.hpp"
-#include "cli/session.hpp"
+#include "cli/invocation.hpp"
 #include "cli/values.hpp"
 #include "mc/base.hpp"
 
@@ -159,7 +159,7 @@ std::string help_text(std::string_view command, bool verbose) {
   return text;
 }
 
-int run_help(Session& /*session*/, std::vector<std::string> words) {
+int run_help(Invocation& /*invocation*/, std::vector<std::string> words) {
   const bool bare = !words.empty() && words.front() == "--options";
   if (bare) words.erase(words.begin());
   TopArgs args;

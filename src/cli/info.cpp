@@ -6,8 +6,8 @@
 #include "base/parallel.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
+#include "cli/invocation.hpp"
 #include "cli/report.hpp"
-#include "cli/session.hpp"
 #include "cli/surface_choice.hpp"
 #include "cli/values.hpp"
 
@@ -25,26 +25,26 @@ std::vector<std::vector<std::string>> grouped(const SourceArgs& args) {
   return groups;
 }
 
-void measure_grid(const Source& source, GridInfo& grid, Session& session) {
-  grid.statistics =
-      measure_field(source.reader, kInfoPercentiles, session.console, session.stop.get_token());
-  session.console.end_stage();
+void measure_grid(const Source& source, GridInfo& grid, Invocation& invocation) {
+  grid.statistics = measure_field(source.reader, kInfoPercentiles, invocation.console,
+                                  invocation.stop.get_token());
+  invocation.console.end_stage();
   const Iso iso = default_iso(volume_of(source.reader), &*grid.statistics);
   grid.iso = iso.value;
   grid.iso_reason = iso.reason;
 }
 
 /// Grids in the file's order; `#n` names the n-th of them whatever its name.
-void inspect(const std::vector<std::string>& inputs, const SourceOptions& options, Session& session,
-             InputInfo& info) {
+void inspect(const std::vector<std::string>& inputs, const SourceOptions& options,
+             Invocation& invocation, InputInfo& info) {
   info.place = inputs.front();
-  const auto grids = describe_source(inputs, options, session.console);
+  const auto grids = describe_source(inputs, options, invocation.console);
   for (const GridDescription& description : grids) info.grids.push_back({description, {}, 0, {}});
   for (std::size_t n = 0; n < info.grids.size(); ++n) {
     if (!info.grids[n].description.refused.empty()) continue;
     SourceOptions one = options;
     if (grids.size() > 1) one.grid = fmt::format("#{}", n);
-    measure_grid(open_source(inputs, one, session.console), info.grids[n], session);
+    measure_grid(open_source(inputs, one, invocation.console), info.grids[n], invocation);
   }
 }
 
@@ -104,7 +104,7 @@ std::string lines(const InputInfo& info) {
 
 }  // namespace
 
-int run_info(Session& session, std::vector<std::string> words) {
+int run_info(Invocation& invocation, std::vector<std::string> words) {
   InfoArgs args;
   parse_words("info", options_of(args), &args.source.inputs, std::move(words));
   if (args.common.help) {
@@ -117,16 +117,16 @@ int run_info(Session& session, std::vector<std::string> words) {
   }
   const CommonOptions common = resolve_common(args.common);
   const SourceOptions source = resolve_source(args.source);
-  session.console.configure(common);
+  invocation.console.configure(common);
   std::optional<base::ThreadLimit> limit;
   if (common.threads > 0) limit.emplace(common.threads);
   int status = 0;
   bool first = true;
   for (const auto& inputs : grouped(args.source)) {
     InputInfo info;
-    const auto failure = attempt([&] { inspect(inputs, source, session, info); });
+    const auto failure = attempt([&] { inspect(inputs, source, invocation, info); });
     if (failure) {
-      const int this_status = show(session.console, *failure);
+      const int this_status = show(invocation.console, *failure);
       if (status == 0) status = this_status;
       info.error = fmt::format("{}", fmt::join(failure->lines, "\n"));
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cli/report_file.hpp"
 
-#include "cli/session.hpp"
+#include "cli/invocation.hpp"
 
 namespace mc::cli {
 

@@ -11,7 +11,7 @@
 #include "cli/args.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
-#include "cli/session.hpp"
+#include "cli/invocation.hpp"
 #include "cli/signals.hpp"
 #include "cli/values.hpp"
 #include "extract/simd_target.hpp"
@@ -23,7 +23,7 @@ namespace mc::cli {
 
 namespace {
 
-using Command = int (*)(Session&, std::vector<std::string>);
+using Command = int (*)(Invocation&, std::vector<std::string>);
 
 constexpr std::array<std::pair<std::string_view, Command>, 5> kCommands{{{"extract", run_extract},
                                                                          {"sample", run_sample},
@@ -56,7 +56,7 @@ int run_top(const std::vector<std::string>& words) {
   return 0;
 }
 
-int dispatch(Session& session, const std::vector<std::string>& words) {
+int dispatch(Invocation& invocation, const std::vector<std::string>& words) {
   obey_simd_environment();
   const auto at = std::find_if(words.begin(), words.end(),
                                [](const std::string& word) { return !word.starts_with('-'); });
@@ -65,7 +65,7 @@ int dispatch(Session& session, const std::vector<std::string>& words) {
   std::vector<std::string> rest(words.begin(), at);
   rest.insert(rest.end(), at + 1, words.end());
   for (const auto& [name, command] : kCommands) {
-    if (name == *at) return command(session, std::move(rest));
+    if (name == *at) return command(invocation, std::move(rest));
   }
   const auto names = command_names();
   throw Error(ErrorKind::usage, *at, fmt::format("no such command: expected {}", enumerate(names)),
@@ -75,11 +75,11 @@ int dispatch(Session& session, const std::vector<std::string>& words) {
 }  // namespace
 
 int run_program(const std::vector<std::string>& words) {
-  Session session;
-  const SignalThread signals(session.stop);  // before any other thread
+  Invocation invocation;
+  const SignalThread signals(invocation.stop);  // before any other thread
   int status = 0;
-  const auto failure = attempt([&] { status = dispatch(session, words); });
-  return failure ? show(session.console, *failure) : status;
+  const auto failure = attempt([&] { status = dispatch(invocation, words); });
+  return failure ? show(invocation.console, *failure) : status;
 }
 
 }  // namespace mc::cli

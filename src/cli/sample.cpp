@@ -8,9 +8,9 @@
 #include "base/parallel.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
+#include "cli/invocation.hpp"
 #include "cli/region.hpp"
 #include "cli/resolve.hpp"
-#include "cli/session.hpp"
 #include "cli/values.hpp"
 
 // `mc sample`: any volume to a volume file, plane by plane, or whole where both ends are sparse.
@@ -39,49 +39,51 @@ std::int32_t planes_a_read(const Volume& volume, std::uint64_t memory_bytes,
 
 /// All planes in order; the sink has begun.
 void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
-                  Session& session) {
+                  Invocation& invocation) {
   const Volume& volume = reader.volume();
   const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
   const std::int32_t step = planes_a_read(volume, plan.memory_bytes, plan.job.output);
-  session.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
+  invocation.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
   Slab slab;
   for (std::int32_t k = 0; k < n_planes; k += step) {
-    if (session.stop.stop_requested()) throw Cancelled();
+    if (invocation.stop.stop_requested()) throw Cancelled();
     const std::int32_t end = std::min(n_planes, k + step);
     reader.read(k, end, slab);
     sink.write(slab);
-    session.console.advance(static_cast<std::uint64_t>(end - k));
+    invocation.console.advance(static_cast<std::uint64_t>(end - k));
   }
 }
 
 void write_part(const SlabReader& part, const SamplePlan& plan, VolumeSink& sink,
-                Session& session) {
+                Invocation& invocation) {
   sink.begin(part.volume());
-  write_planes(part, plan, sink, session);
+  write_planes(part, plan, sink, invocation);
 }
 
-void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink, Session& session) {
+void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
+           Invocation& invocation) {
   if (plan.region) {
-    write_part(*crop_view(reader, *plan.region), plan, sink, session);
+    write_part(*crop_view(reader, *plan.region), plan, sink, invocation);
   } else {
-    write_part(reader, plan, sink, session);
+    write_part(reader, plan, sink, invocation);
   }
 }
 
-void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink, Session& session) {
+void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
+           Invocation& invocation) {
   if (plan.region) {
-    write_part(*dense_view(reader, *plan.region), plan, sink, session);
+    write_part(*dense_view(reader, *plan.region), plan, sink, invocation);
     return;
   }
   sink.begin(reader.volume());
   if (!sink.write_sparse(reader)) {
-    write_planes(*dense_view(reader, reader.volume().lattice.box), plan, sink, session);
+    write_planes(*dense_view(reader, reader.volume().lattice.box), plan, sink, invocation);
   }
 }
 
 }  // namespace
 
-int run_sample(Session& session, std::vector<std::string> words) {
+int run_sample(Invocation& invocation, std::vector<std::string> words) {
   SampleArgs args;
   args.common.typed = words;
   parse_words("sample", options_of(args), &args.source.inputs, std::move(words));
@@ -91,15 +93,15 @@ int run_sample(Session& session, std::vector<std::string> words) {
   }
   SamplePlan plan = resolve(args);
   plan.sink.provenance.emplace_back("generator", "mc " MC_VERSION);
-  session.console.configure(plan.common);
+  invocation.console.configure(plan.common);
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
-  const Source source = open_source(plan.job.inputs, plan.source, session.console);
+  const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
   check_region(source.reader, plan.region);
   const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
-  std::visit([&](const auto& reader) { write(*reader, plan, *sink, session); }, source.reader);
+  std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, source.reader);
   sink->finish();
-  session.console.end_stage();
+  invocation.console.end_stage();
   return 0;
 }
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/parallel.hpp"
-#include "cli/session.hpp"
+#include "cli/invocation.hpp"
 #include "extract/simd_target.hpp"
 
 // `mc --version -v`: what to quote when reporting a bug.

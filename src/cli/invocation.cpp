@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/session.hpp"
+#include "cli/invocation.hpp"
 
 #include <cerrno>
 #include <cstdio>

@@ -15,7 +15,7 @@
 
 namespace mc::cli {
 
-struct Session {
+struct Invocation {
   Console console;
   std::stop_source stop;
 };
@@ -27,11 +27,11 @@ int show(Console& console, const Failure& failure);
 void print_out(std::string_view text);
 
 /// Each runs one command from its words (those after its name) and returns the exit status.
-int run_extract(Session& session, std::vector<std::string> words);
-int run_sample(Session& session, std::vector<std::string> words);
-int run_info(Session& session, std::vector<std::string> words);
-int run_check(Session& session, std::vector<std::string> words);
-int run_help(Session& session, std::vector<std::string> words);
+int run_extract(Invocation& invocation, std::vector<std::string> words);
+int run_sample(Invocation& invocation, std::vector<std::string> words);
+int run_info(Invocation& invocation, std::vector<std::string> words);
+int run_check(Invocation& invocation, std::vector<std::string> words);
+int run_help(Invocation& invocation, std::vector<std::string> words);
 
 /// `mc --version`, with what was built in when `verbose`.
 std::string version_text(bool verbose);
