@@ -26,6 +26,10 @@ struct RunOptions {
 /// Sparse: the index and the layers' classification. Chunks are estimated, white noise aside.
 std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options);
 
+/// Refuses, before anything is read, a dense run that cannot keep its budget. What a sparse run
+/// needs shows when it is planned, in run(). Errors   limit.
+void check_memory(const VolumeReader& reader, const RunOptions& options);
+
 /// Extracts one iso of `reader` into `sink`: begin_object, chunks in order, end_object.
 /// The sink is not touched until the first triangle exists; `allow_empty` hands it an empty object.
 /// Errors   empty: no surface (unless allow_empty); limit: memory; those of reader and sink.

@@ -52,6 +52,7 @@ class Extraction {
 
   void open();
   void place_mesh();
+  void refuse_collapse() const;
   void choose_surface();
   void describe() const;
   void write();
@@ -113,8 +114,9 @@ void Extraction::open() {
 void Extraction::place_mesh() {
   placement_ = place(volume(), plan_.place, plan_.format);
   report_.placement = placement_;
-  const FloatLoss loss = float_loss(box(), placement_.to_world);
+  const RoundingLoss loss = rounding_loss(box(), placement_.to_world, Precision::f32);
   needs_ = mesh_needs(plan_.format, plan_.sink, loss.matters);
+  refuse_collapse();
   if (!loss.matters || needs_.relative_origin) return;
   if (needs_.precision == Precision::f64) {
     invocation_.console.note(fmt::format(
@@ -127,6 +129,25 @@ void Extraction::place_mesh() {
   }
 }
 
+/// A mesh whose vertices cannot be told apart is no mesh.
+void Extraction::refuse_collapse() const {
+  Affine stored = placement_.to_world;
+  if (needs_.relative_origin) {
+    const Vec3 origin = double_origin(box(), stored);
+    for (std::size_t a = 0; a < 3; ++a) stored.m[4 * a + 3] -= origin[a];
+  }
+  if (!rounding_loss(box(), stored, needs_.precision).collapses) return;
+  const bool asked = plan_.source.spacing || plan_.source.origin;
+  throw Error(asked ? ErrorKind::usage : ErrorKind::limit, source_->place,
+              fmt::format("{} coordinates cannot tell the vertices of this volume apart: its cells "
+                          "are {:.3g} wide, its corner lies at {:.3g}",
+                          needs_.precision == Precision::f32 ? "float" : "double",
+                          placement_.to_world.spacing(0), placement_.to_world.m[3]),
+              needs_.precision == Precision::f32
+                  ? "use ply or obj, or change --spacing and --origin"
+                  : "change --spacing and --origin");
+}
+
 FieldStatistics Extraction::measure(std::span<const double> percentiles) {
   FieldStatistics statistics;
   timed("statistics", [&] {
@@ -137,6 +158,7 @@ FieldStatistics Extraction::measure(std::span<const double> percentiles) {
 }
 
 void Extraction::choose_surface() {
+  if (!plan_.dry_run) check_memory(reader(), run_options({}));
   inside_ = choose_inside(plan_.inside, plan_.invert, volume());
   border_ = choose_border(plan_.border, volume());
   report_.inside = inside_;

@@ -89,34 +89,33 @@ Placement place(const Volume& volume, const PlaceChoice& choice, std::string_vie
   return at;
 }
 
-FloatLoss float_loss(const IndexBox& box, const Affine& to_world) {
+RoundingLoss rounding_loss(const IndexBox& box, const Affine& to_world, Precision precision) {
   double largest = 0;
   for (const Vec3& p : corners(box, to_world)) {
     for (const double c : p) largest = std::max(largest, std::abs(c));
   }
-  const double smallest_cell =
-      std::min({to_world.spacing(0), to_world.spacing(1), to_world.spacing(2)});
-  FloatLoss loss;
-  if (largest > std::numeric_limits<float>::max()) {
-    return {std::numeric_limits<double>::infinity(), true};
+  const double cell = std::min({to_world.spacing(0), to_world.spacing(1), to_world.spacing(2)});
+  const bool f32 = precision == Precision::f32;
+  const double most =
+      f32 ? double{std::numeric_limits<float>::max()} : std::numeric_limits<double>::max();
+  if (!(largest <= most)) {
+    return {std::numeric_limits<double>::infinity(), true, true};
   }
-  // Half the distance between neighbouring floats: 24 bits of mantissa, and no finer than the
-  // smallest denormal.
-  const int exponent = largest > 0 ? std::max(std::ilogb(largest), -126) : -126;
-  loss.largest_move = std::ldexp(1.0, exponent - 24);
-  loss.matters = loss.largest_move > smallest_cell / 8192;
+  // Half the distance between neighbouring numbers: 24 or 53 bits of mantissa, and no finer than
+  // the smallest denormal.
+  const int lowest = f32 ? -126 : -1022;
+  const int exponent = largest > 0 ? std::max(std::ilogb(largest), lowest) : lowest;
+  RoundingLoss loss;
+  loss.largest_move = std::ldexp(1.0, exponent - (f32 ? 24 : 53));
+  loss.matters = loss.largest_move > cell / 8192;
+  loss.collapses = loss.largest_move > cell / 8;
   return loss;
 }
 
 Vec3 double_origin(const IndexBox& box, const Affine& to_world) {
   Vec3 middle;
   for (std::size_t a = 0; a < 3; ++a) middle[a] = (double{1} * box.lo[a] + box.hi[a]) / 2;
-  Vec3 origin = to_world(middle);
-  for (double& c : origin) {
-    const bool fits = std::abs(c) <= std::numeric_limits<float>::max();
-    c = fits ? double{static_cast<float>(c)} : c;
-  }
-  return origin;
+  return to_world(middle);
 }
 
 const char* name_of(Frame frame) {

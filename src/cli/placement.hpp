@@ -26,17 +26,17 @@ struct Placement {
 /// Errors   usage: an up axis for a source that has a frame; units that glTF cannot have.
 Placement place(const Volume& volume, const PlaceChoice& choice, std::string_view format);
 
-/// What float does to the positions of a mesh.
-struct FloatLoss {
-  double largest_move = 0;  ///< world units, at most
+/// What rounding stored positions does to vertices.
+struct RoundingLoss {
+  double largest_move = 0;  ///< world units, at most; infinity where positions overflow
   bool matters = false;     ///< more than 1/8192 of the smallest cell spacing
+  bool collapses = false;   ///< more than 1/8: neighbouring vertices may become one
 };
 
-/// Rounding to float of positions anywhere in `box` under `to_world`.
-FloatLoss float_loss(const IndexBox& box, const Affine& to_world);
+/// Rounding of positions anywhere in `box` under `to_world`.
+RoundingLoss rounding_loss(const IndexBox& box, const Affine& to_world, Precision precision);
 
-/// A point near the middle of the box that a float holds exactly; positions relative to it are
-/// small.
+/// The middle of the box: positions relative to it are small.
 Vec3 double_origin(const IndexBox& box, const Affine& to_world);
 
 const char* name_of(Frame frame);

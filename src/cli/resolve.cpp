@@ -17,6 +17,15 @@ namespace mc::cli {
 
 namespace {
 
+/// stdout, or what exists and is no regular file.
+bool is_stream(const std::string& output) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(output, ignored);
+  return output == "-" ||
+         (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
+          !std::filesystem::is_directory(status));
+}
+
 namespace fs = std::filesystem;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -211,6 +220,13 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
     plan.jobs = {{args.source.inputs, *args.output}};
   }
   for (const Job& job : plan.jobs) {
+    if (plan.format == "gltf" && is_stream(job.output)) {
+      refuse(job.output, "glTF is two files and cannot be written to a stream", "use --to glb");
+    }
+    if (args.report && std::ranges::find(job.inputs, *args.report) != job.inputs.end() &&
+        *args.report != "-") {
+      refuse("--report", "names the input itself", "give another FILE");
+    }
     if (args.report && *args.report == job.output && !args.dry_run) {
       refuse("--report",
              job.output == "-" ? "cannot go to stdout with --output -" : "names the output itself",

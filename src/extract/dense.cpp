@@ -59,7 +59,7 @@ DenseExtractor::DenseExtractor(const Volume& volume, const Affine& to_world,
       options_(options),
       placement_(to_world, options),
       box_(options.region.value_or(volume.lattice.box)),
-      apex_(placement_.map(middle_of(box_))),
+      apex_(middle_of(box_)),
       threshold_(volume.type, volume.endian, options.iso, options.inside),
       capped_(options.border != Border::open),
       above_outside_((options.border == Border::solid) == (options.inside == Inside::above)) {
@@ -277,7 +277,7 @@ LayerSum DenseExtractor::measure(std::int32_t p, const Vertices& vertices) const
       for_each_bit(any & ~all & cell_mask(row_samples_, w), [&](int bit) {
         const Index3 cell{box_.lo[0] - pad + index_in_row(w, bit),
                           box_.lo[1] - pad + static_cast<std::int32_t>(j), box_.lo[2] - pad + p};
-        add_cell(vertices, cell, kCases[vertices.case_of(cell)], apex_, sum);
+        add_cell(vertices, placement_, cell, kCases[vertices.case_of(cell)], apex_, sum);
       });
     }
   }

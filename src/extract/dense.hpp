@@ -73,7 +73,7 @@ class DenseExtractor {
   ExtractOptions options_;
   Placement placement_;
   IndexBox box_;  ///< the region
-  Vec3 apex_;     ///< volumes are summed from here
+  Vec3 apex_;     ///< volumes are summed from here, in lattice units
   Threshold threshold_;
   bool capped_;
   bool above_outside_;  ///< the constant layer of a closed border

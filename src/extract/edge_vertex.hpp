@@ -78,8 +78,17 @@ struct Placement {
   double outward;  ///< -1 where values grow into the solid
 
   Placement(const Affine& to_world, const ExtractOptions& o) : map(to_world) {
-    const std::array<double, 12>& m = map.m;
-    const double sign = map.determinant() < 0 ? -1 : 1;
+    // Scaled by a power of two, so that products of very small or large spacings stay finite.
+    std::array<double, 12> m = map.m;
+    double largest_entry = 0;
+    for (const std::size_t n : {0, 1, 2, 4, 5, 6, 8, 9, 10}) {
+      largest_entry = std::max(largest_entry, std::abs(m[n]));
+    }
+    const int exponent = largest_entry > 0 ? std::ilogb(largest_entry) : 0;
+    for (double& x : m) {
+      x = std::ldexp(x, -exponent);
+    }
+    const double sign = Affine{m}.determinant() < 0 ? -1 : 1;
     cofactors = {sign * (m[5] * m[10] - m[6] * m[9]), sign * (m[6] * m[8] - m[4] * m[10]),
                  sign * (m[4] * m[9] - m[5] * m[8]),  sign * (m[2] * m[9] - m[1] * m[10]),
                  sign * (m[0] * m[10] - m[2] * m[8]), sign * (m[1] * m[8] - m[0] * m[9]),
@@ -104,6 +113,13 @@ struct Placement {
            static_cast<double>(e.lower[2])};
     p[static_cast<std::size_t>(e.axis)] += t;
     return map(p);
+  }
+
+  /// The map without its translation.
+  [[nodiscard]] Vec3 linear(const Vec3& p) const noexcept {
+    const std::array<double, 12>& m = map.m;
+    return {(m[0] * p[0] + m[1] * p[1]) + m[2] * p[2], (m[4] * p[0] + m[5] * p[1]) + m[6] * p[2],
+            (m[8] * p[0] + m[9] * p[1]) + m[10] * p[2]};
   }
 
   /// The world direction of an index covector; not normalised.
@@ -197,19 +213,20 @@ class EdgeVertices {
     return {static_cast<float>(n[0]), static_cast<float>(n[1]), static_cast<float>(n[2])};
   }
 
-  /// The area vector of one triangle of a cell: half the cross product of its sides, outward.
+  /// The area vector of one triangle of a cell: half the cross product of its sides, outward. From
+  /// unrounded positions relative to the cell, so that it is the same wherever the volume lies and
+  /// however its positions are stored. `corner` takes the first corner, relative to the cell.
   [[nodiscard]] Vec3 area_vector(const Index3& cell, const CaseRow& row, std::size_t triangle,
-                                 Vec3* corners = nullptr) const noexcept {
+                                 Vec3* corner = nullptr) const noexcept {
     std::array<Vec3, 3> p;
     for (std::size_t n = 0; n < 3; ++n) {
-      const LatticeEdge e = edge_of(cell, row.edges[3 * triangle + n]);
-      p[n] = stored(position(e, parameter(e)));
+      p[n] = within_cell(cell, row.edges[3 * triangle + n]);
     }
     if (rules_.placement.flip) {
       std::swap(p[1], p[2]);
     }
-    if (corners != nullptr) {
-      std::copy(p.begin(), p.end(), corners);
+    if (corner != nullptr) {
+      *corner = p[0];
     }
     const Vec3 a{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
     const Vec3 b{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
@@ -238,11 +255,15 @@ class EdgeVertices {
     const EdgeEnds ends = edge_ends(edge);
     return {corner_of(cell, ends.corner), ends.axis};
   }
-  /// The position as the mesh holds it.
-  static Vec3 stored(const Vec3& p) {
-    return {static_cast<double>(static_cast<float>(p[0])),
-            static_cast<double>(static_cast<float>(p[1])),
-            static_cast<double>(static_cast<float>(p[2]))};
+  /// The vertex on an edge of a cell, in the world but for translation, relative to the cell's
+  /// lowest corner.
+  [[nodiscard]] Vec3 within_cell(const Index3& cell, int edge) const noexcept {
+    const int corner = edge_ends(edge).corner;
+    Vec3 p{static_cast<double>(corner & 1), static_cast<double>(corner >> 1 & 1),
+           static_cast<double>(corner >> 2)};
+    const LatticeEdge e = edge_of(cell, edge);
+    p[static_cast<std::size_t>(e.axis)] += static_cast<double>(parameter(e));
+    return rules_.placement.linear(p);
   }
 
   /// Central differences, one-sided at the box's border, per step of the lattice.

@@ -94,7 +94,7 @@ SparsePlan::SparsePlan(const LeafReader& reader, const Affine& to_world,
           options.region.value_or(IndexBox{{-kReach, -kReach, -kReach}, {kReach, kReach, kReach}})),
       capped_(options.border != Border::open),
       above_outside_((options.border == Border::solid) == (options.inside == Inside::above)),
-      apex_(placement_.map(middle_of(options.region.value_or(reader.volume().lattice.box)))) {
+      apex_(middle_of(options.region.value_or(reader.volume().lattice.box))) {
   classify_leaves();
   find_blocks();
   count_blocks();
@@ -380,7 +380,8 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
       for (std::int32_t k = 0; k < 8; ++k) {
         for_each_bit(cells[static_cast<std::size_t>(k)], [&](int at) {
           const Index3 cell{o[0] + (at & 7), o[1] + (at >> 3), o[2] + k};
-          add_cell(vertices, cell, kCases[vertices.case_of(cell)], plan_.apex_, sum);
+          add_cell(vertices, plan_.placement_, cell, kCases[vertices.case_of(cell)], plan_.apex_,
+                   sum);
         });
       }
       totals.layers.push_back(sum);

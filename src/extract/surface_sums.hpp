@@ -41,16 +41,19 @@ inline Vec3 middle_of(const IndexBox& box) {
   return middle;
 }
 
-/// Adds one cell's triangles, their cones taken from `apex`.
+/// Adds one cell's triangles, their cones taken from `apex`, a place of the lattice.
 template <class T, class Sampler>
-void add_cell(const EdgeVertices<T, Sampler>& vertices, const Index3& cell, const CaseRow& row,
-              const Vec3& apex, LayerSum& sum) {
+void add_cell(const EdgeVertices<T, Sampler>& vertices, const Placement& placement,
+              const Index3& cell, const CaseRow& row, const Vec3& apex, LayerSum& sum) {
+  const Vec3 to_cell = placement.linear({static_cast<double>(cell[0]) - apex[0],
+                                         static_cast<double>(cell[1]) - apex[1],
+                                         static_cast<double>(cell[2]) - apex[2]});
   for (std::size_t t = 0; t < row.n_triangles; ++t) {
-    std::array<Vec3, 3> p;
-    const Vec3 a = vertices.area_vector(cell, row, t, p.data());
+    Vec3 p{};
+    const Vec3 a = vertices.area_vector(cell, row, t, &p);
     sum.area += std::sqrt((a[0] * a[0] + a[1] * a[1]) + a[2] * a[2]);
     sum.volume +=
-        (((p[0][0] - apex[0]) * a[0] + (p[0][1] - apex[1]) * a[1]) + (p[0][2] - apex[2]) * a[2]) /
+        (((p[0] + to_cell[0]) * a[0] + (p[1] + to_cell[1]) * a[1]) + (p[2] + to_cell[2]) * a[2]) /
         3;
   }
 }

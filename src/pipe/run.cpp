@@ -122,6 +122,12 @@ std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& option
   return needed(*tasks_for(reader, options), n_slots);
 }
 
+void check_memory(const VolumeReader& reader, const RunOptions& options) {
+  if (std::holds_alternative<std::unique_ptr<SlabReader>>(reader)) {
+    slots_within(*tasks_for(reader, options), options.memory_bytes);
+  }
+}
+
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop) {
   const auto tasks = tasks_for(reader, options);

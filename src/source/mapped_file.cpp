@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -57,7 +58,8 @@ void write_all(int fd, std::span<const std::byte> bytes, const std::string& plac
 }
 
 /// Copies a stream to an unlinked file and returns its descriptor.
-int spooled(int stream, const std::string& place) {
+/// Stops after `most_bytes` and one more.
+int spooled(int stream, const std::string& place, std::uint64_t most_bytes) {
   const char* folder = std::getenv("TMPDIR");
   std::string name = std::string(folder != nullptr && *folder != '\0' ? folder : "/tmp");
   name += "/mc-spool-XXXXXX";
@@ -68,8 +70,12 @@ int spooled(int stream, const std::string& place) {
   }
   ::unlink(name.c_str());
   std::array<std::byte, 1 << 16> block{};
+  std::uint64_t n_bytes = 0;
   for (;;) {
-    const ssize_t n = ::read(stream, block.data(), block.size());
+    const std::uint64_t left = most_bytes - n_bytes;
+    const std::size_t wanted =
+        left < block.size() ? static_cast<std::size_t>(left) + 1 : block.size();
+    const ssize_t n = ::read(stream, block.data(), std::min(wanted, block.size()));
     if (n < 0 && errno == EINTR) {
       continue;
     }
@@ -80,12 +86,17 @@ int spooled(int stream, const std::string& place) {
       return fd;
     }
     write_all(fd, std::span(block).first(static_cast<std::size_t>(n)), place);
+    n_bytes += static_cast<std::uint64_t>(n);
+    if (n_bytes > most_bytes) {
+      return fd;
+    }
   }
 }
 
 }  // namespace
 
-MappedFile::MappedFile(const std::string& path) : place_(path == "-" ? "<stdin>" : path) {
+MappedFile::MappedFile(const std::string& path, std::uint64_t most_bytes)
+    : place_(path == "-" ? "<stdin>" : path) {
   const Descriptor opened(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (opened.get() < 0) {
     cannot("open", place_);
@@ -98,7 +109,11 @@ MappedFile::MappedFile(const std::string& path) : place_(path == "-" ? "<stdin>"
     throw Error(ErrorKind::input, place_, "is a folder, but a file was expected");
   }
   const bool regular = S_ISREG(status.st_mode);
-  const Descriptor file(regular ? ::dup(opened.get()) : spooled(opened.get(), place_));
+  if (S_ISCHR(status.st_mode) && most_bytes == kUnlimited) {
+    throw Error(ErrorKind::input, place_, "is a device, but a file or a pipe was expected",
+                "raw data from a device needs all three --dims and --type");
+  }
+  const Descriptor file(regular ? ::dup(opened.get()) : spooled(opened.get(), place_, most_bytes));
   if (!regular && path == "-") {
     // A pipe can be read once: from now on stdin is the copy, so that "-" can be opened again.
     ::lseek(file.get(), 0, SEEK_SET);

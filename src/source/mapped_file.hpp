@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +16,12 @@ namespace mc::source {
 
 class MappedFile {
  public:
-  /// "-" is stdin. Errors: input (missing, a folder, unreadable, empty).
-  explicit MappedFile(const std::string& path);
+  static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
+
+  /// "-" is stdin. A stream is read up to `most_bytes` and one more, which tells that it is longer;
+  /// a device, which may never end, only with such a limit. Errors   input (missing, a folder,
+  /// unreadable, empty, an endless device).
+  explicit MappedFile(const std::string& path, std::uint64_t most_bytes = kUnlimited);
   ~MappedFile();
   MappedFile(MappedFile&& other) noexcept;
   MappedFile& operator=(MappedFile&& other) noexcept;

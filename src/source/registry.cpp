@@ -152,7 +152,9 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
       break;
     }
     case Format::spec: {
-      std::unique_ptr<SlabReader> spec = open_spec(inputs.paths.front());
+      // From the bytes that told what it is: a FIFO gives them once.
+      std::unique_ptr<SlabReader> spec =
+          open_spec_text(decision.file->place(), decision.file->text());
       source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
       break;
     }

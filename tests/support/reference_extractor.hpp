@@ -113,6 +113,8 @@ class ReferenceExtractor {
       mesh_.normals.push_back(gradient_normal(a, b, axis, t, a_in && b_in));
     }
     directions_.push_back(direction(a, axis));
+    parameters_.push_back(static_cast<double>(t));
+    area_sums_.push_back({});
   }
 
   [[nodiscard]] R slope(std::array<int, 3> p, std::size_t axis) const {
@@ -184,34 +186,46 @@ class ReferenceExtractor {
     const bool flip = (o_.inside == Inside::below) != (to_world_.determinant() < 0);
     for (std::size_t t = 0; t < row.n_triangles; ++t) {
       std::array<std::uint32_t, 3> ids{};
+      std::array<int, 3> edges{row.edges[3 * t], row.edges[3 * t + 1], row.edges[3 * t + 2]};
       for (std::size_t n = 0; n < 3; ++n) {
-        const auto ends = extraction::edge_ends(row.edges[3 * t + n]);
+        const auto ends = extraction::edge_ends(edges[n]);
         ids[n] = ids_.at(
             {i + (ends.corner & 1), j + (ends.corner >> 1 & 1), k + (ends.corner >> 2), ends.axis});
       }
-      if (flip) std::swap(ids[1], ids[2]);
+      if (flip) {
+        std::swap(ids[1], ids[2]);
+        std::swap(edges[1], edges[2]);
+      }
       mesh_.triangles.push_back(ids);
+      add_area(ids, edges);
+    }
+  }
+
+  /// Adds a triangle's area vector to its three vertices, from places relative to its cell.
+  void add_area(const std::array<std::uint32_t, 3>& ids, const std::array<int, 3>& edges) {
+    const auto& m = to_world_.m;
+    std::array<Vec3, 3> p;
+    for (std::size_t n = 0; n < 3; ++n) {
+      const auto ends = extraction::edge_ends(edges[n]);
+      Vec3 q{static_cast<double>(ends.corner & 1), static_cast<double>(ends.corner >> 1 & 1),
+             static_cast<double>(ends.corner >> 2)};
+      q[static_cast<std::size_t>(ends.axis)] += parameters_[ids[n]];
+      for (std::size_t r = 0; r < 3; ++r) {
+        p[n][r] = (m[4 * r] * q[0] + m[4 * r + 1] * q[1]) + m[4 * r + 2] * q[2];
+      }
+    }
+    const Vec3 a{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
+    const Vec3 b{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    const Vec3 area{0.5 * (a[1] * b[2] - a[2] * b[1]), 0.5 * (a[2] * b[0] - a[0] * b[2]),
+                    0.5 * (a[0] * b[1] - a[1] * b[0])};
+    for (const std::uint32_t id : ids) {
+      for (std::size_t n = 0; n < 3; ++n) area_sums_[id][n] += area[n];
     }
   }
 
   void face_normals() {
-    std::vector<Vec3> sums(mesh_.positions.size());
-    for (const auto& tri : mesh_.triangles) {
-      std::array<Vec3, 3> p;
-      for (std::size_t n = 0; n < 3; ++n) {
-        const auto& q = mesh_.positions[tri[n]];
-        p[n] = {static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2])};
-      }
-      const Vec3 a{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
-      const Vec3 b{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-      const Vec3 area{0.5 * (a[1] * b[2] - a[2] * b[1]), 0.5 * (a[2] * b[0] - a[0] * b[2]),
-                      0.5 * (a[0] * b[1] - a[1] * b[0])};
-      for (const std::uint32_t id : tri) {
-        for (std::size_t n = 0; n < 3; ++n) sums[id][n] += area[n];
-      }
-    }
-    for (std::size_t v = 0; v < sums.size(); ++v) {
-      mesh_.normals.push_back(unit(sums[v]) ? narrow(sums[v]) : directions_[v]);
+    for (std::size_t v = 0; v < area_sums_.size(); ++v) {
+      mesh_.normals.push_back(unit(area_sums_[v]) ? narrow(area_sums_[v]) : directions_[v]);
     }
   }
 
@@ -223,6 +237,8 @@ class ReferenceExtractor {
   int pad_;
   std::map<Edge, std::uint32_t> ids_;
   std::vector<std::array<float, 3>> directions_;
+  std::vector<double> parameters_;
+  std::vector<Vec3> area_sums_;
   Mesh mesh_;
 };
 

@@ -50,10 +50,12 @@ void check_typed(const SourceOptions& options, const std::string& place) {
 
 [[noreturn]] void wrong_size(const MappedFile& file, const std::vector<std::int64_t>& dims,
                              const SourceOptions& options, std::uint64_t needed) {
+  // A stream was read no further than one byte too many.
+  const bool stream_goes_on = file.bytes().size() == needed + options.skip_bytes + 1;
   const bool skips = options.skip_bytes > 0;
   throw Error(ErrorKind::input, file.place(),
-              fmt::format("{} bytes, but {} {}{} needs {}", file.bytes().size(), dims_text(dims),
-                          sample_name(*options.type),
+              fmt::format("{}{} bytes, but {} {}{} needs {}", stream_goes_on ? "at least " : "",
+                          file.bytes().size(), dims_text(dims), sample_name(*options.type),
                           skips ? fmt::format(" after {} skipped bytes", options.skip_bytes) : "",
                           needed + options.skip_bytes),
               skips ? "check --dims, --type and --skip" : "check --dims and --type");
@@ -90,9 +92,12 @@ Volume raw_volume(const SourceOptions& options, std::int64_t nz) {
 }
 
 std::unique_ptr<SlabReader> open_single(const std::string& path, const SourceOptions& options) {
-  MappedFile file(path);
-  const std::int64_t nz =
-      options.dims.size() == 3 ? options.dims[2] : counted_planes(file, options);
+  const bool known = options.dims.size() == 3;
+  MappedFile file(path, known ? *volume_bytes(options.dims[0], options.dims[1], options.dims[2],
+                                              *options.type) +
+                                    options.skip_bytes
+                              : MappedFile::kUnlimited);
+  const std::int64_t nz = known ? options.dims[2] : counted_planes(file, options);
   if (nz < 2 || nz > kMostSamples) {
     throw Error(ErrorKind::input, file.place(),
                 fmt::format("{} planes of {} {}, but 2 to {} were expected", nz,

@@ -78,22 +78,42 @@ TEST(Placement, RefusesWhatCannotBe) {
             "millimetres");
 }
 
-TEST(FloatLoss, MattersFarFromTheOrigin) {
+TEST(RoundingLoss, MattersFarFromTheOrigin) {
   const IndexBox box{{0, 0, 0}, {9, 9, 9}};
-  EXPECT_FALSE(float_loss(box, Affine::scale_translate({1, 1, 1}, {1000, 0, 0})).matters);
-  const FloatLoss far = float_loss(box, Affine::scale_translate({1, 1, 1}, {500000, 0, 0}));
+  EXPECT_FALSE(
+      rounding_loss(box, Affine::scale_translate({1, 1, 1}, {1000, 0, 0}), Precision::f32).matters);
+  const RoundingLoss far =
+      rounding_loss(box, Affine::scale_translate({1, 1, 1}, {500000, 0, 0}), Precision::f32);
   EXPECT_EQ(far.largest_move, 1.0 / 64);
   EXPECT_TRUE(far.matters);
   // Half a float's step at 4096 is 1/4096; just below, 1/8192, which is the limit itself.
-  EXPECT_TRUE(float_loss(box, Affine::scale_translate({1, 1, 1}, {4096, 0, 0})).matters);
-  EXPECT_FALSE(float_loss(box, Affine::scale_translate({1, 1, 1}, {4086, 0, 0})).matters);
+  EXPECT_TRUE(
+      rounding_loss(box, Affine::scale_translate({1, 1, 1}, {4096, 0, 0}), Precision::f32).matters);
+  EXPECT_FALSE(
+      rounding_loss(box, Affine::scale_translate({1, 1, 1}, {4086, 0, 0}), Precision::f32).matters);
 }
 
-TEST(FloatLoss, OriginIsAFloatNearTheMiddle) {
+TEST(RoundingLoss, CollapsesWhereNeighboursBecomeOne) {
+  const IndexBox box{{0, 0, 0}, {9, 9, 9}};
+  const auto at = [&](double spacing, double origin, Precision precision) {
+    return rounding_loss(box, Affine::scale_translate({spacing, spacing, spacing}, {origin, 0, 0}),
+                         precision)
+        .collapses;
+  };
+  EXPECT_FALSE(at(1, 1e6, Precision::f32));
+  EXPECT_TRUE(at(1, 1e8, Precision::f32));
+  EXPECT_FALSE(at(1, 1e14, Precision::f64));
+  EXPECT_TRUE(at(1, 1e17, Precision::f64));
+  EXPECT_TRUE(at(1e300, 0, Precision::f32));
+  EXPECT_FALSE(at(1e300, 0, Precision::f64));
+  EXPECT_TRUE(at(1e-300, 0, Precision::f32));
+  EXPECT_FALSE(at(1e-300, 0, Precision::f64));
+}
+
+TEST(RoundingLoss, OriginIsTheMiddle) {
   const IndexBox box{{0, 0, 0}, {9, 9, 9}};
   const Vec3 origin = double_origin(box, Affine::scale_translate({1, 1, 1}, {123456789, 0, 0}));
-  EXPECT_EQ(origin[0], double{static_cast<float>(origin[0])});
-  EXPECT_NEAR(origin[0], 123456793.5, 8);
+  EXPECT_EQ(origin[0], 123456793.5);
   EXPECT_EQ(origin[1], 4.5);
 }
 
