@@ -52,6 +52,29 @@ constexpr std::array<Page, 4> kPages{{
      "  mc check --closed --json part.stl\n"},
 }};
 
+/// What else `mc help` can tell of.
+struct Topic {
+  std::string_view name;
+  std::string_view text;
+};
+
+constexpr std::array<Topic, 2> kTopics{{
+    {"mc-volume",
+     "mc-volume: a procedural volume in one JSON file; all of it in mc-volume(5)\n\n"
+     "  { \"format\": \"mc-volume\", \"version\": 1, \"convention\": \"density\",\n"
+     "    \"grid\": { \"cells\": [64, 64, 64], \"spacing\": 1 }, \"border\": \"closed\",\n"
+     "    \"field\": { \"type\": \"difference\", \"smooth\": 2,\n"
+     "      \"a\": { \"type\": \"box\", \"center\": [32, 32, 32], \"size\": [40, 40, 40] },\n"
+     "      \"b\": { \"type\": \"sphere\", \"center\": [52, 52, 52], \"radius\": 18 } } }\n"},
+    {"formats",
+     "Inputs   .vdb; .nrrd and .nhdr (raw encoding); .json of format mc-volume; raw files and\n"
+     "         slices with --dims and --type, or with a .nhdr beside them\n"
+     "Meshes   .ply .obj .stl .glb .gltf (with a .bin)\n"
+     "Volumes  .vdb .nrrd .raw (with a .nhdr)\n\n"
+     "An input is told by --from, then by --dims with --type, then by its content, then by its\n"
+     "extension; an output by --to, then by its extension.\n"},
+}};
+
 const Page* page_of(std::string_view command) {
   const auto at = std::find_if(kPages.begin(), kPages.end(),
                                [&](const Page& page) { return page.name == command; });
@@ -106,11 +129,12 @@ std::string options_text(const std::vector<Option>& options, bool all) {
 std::string program_text(bool verbose) {
   std::string text =
       "mc turns scalar volumes into triangle meshes.\n\n"
-      "Usage: mc COMMAND ... | mc --version [-v] | mc help [COMMAND]\n\n"
+      "Usage: mc COMMAND ... | mc --version [-v] | mc help [TOPIC]\n\n"
       "Commands:\n";
   for (const Page& page : kPages) text += fmt::format("  {:10}{}\n", page.name, page.summary);
   text += "\nOptions:\n";
   text += with_options("", [&](const std::vector<Option>& o) { return options_text(o, verbose); });
+  text += "\nOther topics of mc help: mc-volume, formats\n";
   text +=
       "\nExample:\n"
       "  mc extract smoke.vdb -o smoke.glb\n\n"
@@ -173,6 +197,11 @@ int run_help(Invocation& /*invocation*/, std::vector<std::string> words) {
     throw Error(ErrorKind::usage, topics[1], "unexpected word after the topic");
   std::string topic = topics.empty() ? "" : topics.front();
   if (topic == "help") topic.clear();
+  const auto known = std::ranges::find(kTopics, topic, &Topic::name);
+  if (known != kTopics.end() && !bare) {
+    print_out(known->text);
+    return 0;
+  }
   if (bare && !topic.empty() && page_of(topic) == nullptr) refuse_topic(topic);
   print_out(bare ? bare_options(topic) : help_text(topic, args.common.verbose > 0));
   return 0;
