@@ -81,7 +81,7 @@ struct Placement {
     // Scaled by a power of two, so that products of very small or large spacings stay finite.
     std::array<double, 12> m = map.m;
     double largest_entry = 0;
-    for (const std::size_t n : {0, 1, 2, 4, 5, 6, 8, 9, 10}) {
+    for (const std::size_t n : {0U, 1U, 2U, 4U, 5U, 6U, 8U, 9U, 10U}) {
       largest_entry = std::max(largest_entry, std::abs(m[n]));
     }
     const int exponent = largest_entry > 0 ? std::ilogb(largest_entry) : 0;
