@@ -111,7 +111,9 @@ TEST(DenseEngineFloat, EverySimdTargetGivesTheSameBytes) {
     ASSERT_TRUE(extraction::set_simd_target(target));
     compare_all<float>({70, 5, 4}, {{1, 0, false}});
     compare_all<std::uint8_t>({133, 3, 3}, {{1, 0, false}});
+    compare_all<std::int8_t>({133, 3, 3}, {{1, 0, false}});
     compare_all<std::int16_t>({70, 3, 3}, {{1, 0, false}});
+    compare_all<std::int32_t>({70, 3, 3}, {{1, 0, false}});
     compare_all<std::uint16_t>({70, 3, 3}, {{1, 0, false}});
     compare_all<std::uint32_t>({70, 3, 3}, {{1, 0, false}});
     compare_all<std::int64_t>({70, 3, 3}, {{1, 0, false}});
