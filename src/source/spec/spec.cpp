@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/checked.hpp"
-#include "source/mapped_file.hpp"
 #include "source/spec/document.hpp"
 
 // The reader of procedural volumes: planes are computed into the slab's own memory.
@@ -56,11 +55,6 @@ class SpecReader final : public SlabReader {
 
 std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text) {
   return std::make_unique<SpecReader>(load_spec(place, text));
-}
-
-std::unique_ptr<SlabReader> open_spec(const std::string& path) {
-  const MappedFile file(path);
-  return open_spec_text(file.place(), file.text());
 }
 
 bool looks_like_spec(std::string_view head) {

@@ -11,13 +11,9 @@
 
 namespace mc::source {
 
-/// Opens a document; "-" is stdin. The whole document is checked before this returns; samples are
-/// computed as they are read.
-/// Errors   input: missing, unreadable, empty; usage: every fault of the document, a line each.
-/// Cost     read() takes O(samples * nodes), one thread a call.
-std::unique_ptr<SlabReader> open_spec(const std::string& path);
-
-/// The same from a text in memory; `place` is how messages name it.
+/// Opens a document; `place` is how messages name it. The whole document is checked before this
+/// returns; samples are computed as they are read. Errors   usage: every fault of the document, a
+/// line each. Cost     read() takes O(samples * nodes), one thread a call.
 std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text);
 
 /// Whether the first bytes of a file look like such a document, damaged ones included.

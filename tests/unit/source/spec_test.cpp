@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "fuzz/replay_spec.hpp"
+#include "source/mapped_file.hpp"
 #include "source/spec/spec.hpp"
 
 // The mc-volume loader: what its documents mean, and the full text of every fault.
@@ -18,7 +19,6 @@
 namespace mc::tests {
 namespace {
 
-using source::open_spec;
 using source::open_spec_text;
 using testing::ElementsAre;
 
@@ -52,6 +52,11 @@ std::vector<float> samples_of(const SlabReader& reader) {
   std::vector<float> out(slab.storage.size() / sizeof(float));
   std::memcpy(out.data(), slab.storage.data(), slab.storage.size());
   return out;
+}
+
+std::unique_ptr<SlabReader> open_spec(const std::string& path) {
+  const source::MappedFile file(path);
+  return source::open_spec_text(file.place(), file.text());
 }
 
 std::filesystem::path data_folder() { return std::filesystem::path(MC_SOURCE_DIR) / "data"; }
