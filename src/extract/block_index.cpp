@@ -116,6 +116,18 @@ void BlockIndex::add_tile(const Tile& tile, std::uint32_t constant) {
   }
 }
 
+/// Where the entry of a leaf or tile block is: behind those of the node's lower bits.
+std::uint32_t BlockIndex::entry_of(const Node& node, const Index3& block) {
+  const BitPlace p = place_in_node(block);
+  std::uint32_t rank = node.first;
+  for (std::size_t w = 0; w < p.word; ++w) {
+    rank += static_cast<std::uint32_t>(std::popcount(node.leaf[w] | node.tile[w]));
+  }
+  const std::uint64_t below = (std::uint64_t{1} << p.bit) - 1;
+  return rank +
+         static_cast<std::uint32_t>(std::popcount((node.leaf[p.word] | node.tile[p.word]) & below));
+}
+
 /// Puts the numbers of leaves and tiles behind their nodes, in the order of their bits.
 void BlockIndex::fill_entries(const LeafReader& reader) {
   std::uint32_t n = 0;
@@ -128,15 +140,7 @@ void BlockIndex::fill_entries(const LeafReader& reader) {
   entries_.resize(n);
   const auto put = [&](const Index3& block, std::uint32_t number) {
     const Node& node = *find(block_of(block));
-    const BitPlace p = place_in_node(block);
-    std::uint32_t rank = node.first;
-    for (std::size_t w = 0; w < p.word; ++w) {
-      rank += static_cast<std::uint32_t>(std::popcount(node.leaf[w] | node.tile[w]));
-    }
-    const std::uint64_t below = (std::uint64_t{1} << p.bit) - 1;
-    rank +=
-        static_cast<std::uint32_t>(std::popcount((node.leaf[p.word] | node.tile[p.word]) & below));
-    entries_[rank] = number;
+    entries_[entry_of(node, block)] = number;
   };
   for (std::size_t leaf = 0; leaf < reader.leaves().size(); ++leaf) {
     put(block_of(reader.leaves()[leaf]), static_cast<std::uint32_t>(leaf));
@@ -205,13 +209,7 @@ Block BlockIndex::at(const Index3& block) const {
   const Node* node = find(block_of(block));
   const BitPlace p = place_in_node(block);
   if (node != nullptr && (test(node->leaf, p) || test(node->tile, p))) {
-    std::uint32_t rank = node->first;
-    for (std::size_t w = 0; w < p.word; ++w) {
-      rank += static_cast<std::uint32_t>(std::popcount(node->leaf[w] | node->tile[w]));
-    }
-    const std::uint64_t below = (std::uint64_t{1} << p.bit) - 1;
-    rank += static_cast<std::uint32_t>(
-        std::popcount((node->leaf[p.word] | node->tile[p.word]) & below));
+    const std::uint32_t rank = entry_of(*node, block);
     if (test(node->leaf, p)) {
       return {entries_[rank], {}, false};
     }

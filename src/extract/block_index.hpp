@@ -76,6 +76,7 @@ class BlockIndex {
   [[nodiscard]] const Node* find(const Index3& key) const;
   [[nodiscard]] std::optional<std::uint32_t> big_tile_at(const Index3& key) const;
   void add_tile(const Tile& tile, std::uint32_t constant);
+  static std::uint32_t entry_of(const Node& node, const Index3& block);
   void fill_entries(const LeafReader& reader);
   void grow();
   struct Sides {

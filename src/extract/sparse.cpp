@@ -268,7 +268,8 @@ const BlockEdges& SparseExtractor::edges_of(std::size_t n) {
   return slot.edges;
 }
 
-void SparseExtractor::emit_triangles(std::size_t n, std::uint64_t base, MeshChunk& chunk) {
+void SparseExtractor::emit_triangles(std::size_t n, std::uint64_t base, const BlockBits& above,
+                                     const Mask512& cells, MeshChunk& chunk) {
   static const BlockEdges kNoEdges;
   const Index3& block = plan_.blocks_[n];
   std::array<BlockEdges, 8> copies;
@@ -288,8 +289,6 @@ void SparseExtractor::emit_triangles(std::size_t n, std::uint64_t base, MeshChun
     }
     around.first[d] = static_cast<std::uint32_t>(id);
   }
-  const BlockBits above = plan_.bits_around(block);
-  const Mask512 cells = find_cells(above, plan_.exists_around(block));
   const std::size_t before = chunk.indices.size();
   chunk.indices.resize(before + 3 * std::size_t{plan_.n_triangles_[n]});
   const std::size_t written =
@@ -336,6 +335,26 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
   return crossings / 2;
 }
 
+/// The vertices of a block in the dense order: plane by plane, row by row, i before j; then k.
+template <class Writer>
+void SparseExtractor::write_vertices(const BlockEdges& edges, const Index3& origin,
+                                     Writer& writer) {
+  for (std::int32_t k = 0; k < 8; ++k) {
+    const auto write = [&](std::uint64_t crossed, int axis) {
+      for_each_bit(crossed, [&](int at) {
+        writer.write({{origin[0] + (at & 7), origin[1] + (at >> 3), origin[2] + k}, axis});
+      });
+    };
+    const auto w = static_cast<std::size_t>(k);
+    for (unsigned j = 0; j < 8; ++j) {
+      const std::uint64_t row = std::uint64_t{0xFF} << (8 * j);
+      write(edges.i[w] & row, 0);
+      write(edges.j[w] & row, 1);
+    }
+    write(edges.k[w], 2);
+  }
+}
+
 template <class T>
 void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChunk& chunk,
                                     TaskTotals& totals) {
@@ -352,28 +371,11 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
     const Index3& block = plan_.blocks_[n];
     const Index3 o = origin_of(block);
     sampler.move_to(block);
-    const auto write = [&](std::uint64_t crossed, std::int32_t k, int axis) {
-      for_each_bit(crossed, [&](int at) {
-        writer.write({{o[0] + (at & 7), o[1] + (at >> 3), o[2] + k}, axis});
-      });
-    };
-    if (plan_.first_[n + 1] != plan_.first_[n]) {
-      const BlockEdges& edges = edges_of(n);
-      for (std::int32_t k = 0; k < 8; ++k) {
-        const auto w = static_cast<std::size_t>(k);
-        for (unsigned j = 0; j < 8; ++j) {
-          const std::uint64_t row = std::uint64_t{0xFF} << (8 * j);
-          write(edges.i[w] & row, k, 0);
-          write(edges.j[w] & row, k, 1);
-        }
-        write(edges.k[w], k, 2);
-      }
-    }
+    if (plan_.first_[n + 1] != plan_.first_[n]) write_vertices(edges_of(n), o, writer);
     if (plan_.n_triangles_[n] == 0) continue;
-    emit_triangles(n, base, chunk);
-    if (!plan_.options_.region && !plan_.options_.measure) continue;
     const BlockBits above = plan_.bits_around(block);
     const Mask512 cells = find_cells(above, plan_.exists_around(block));
+    emit_triangles(n, base, above, cells, chunk);
     totals.n_boundary_edges += boundary_edges(block, above, cells);
     if (plan_.options_.measure) {
       LayerSum sum;

@@ -77,7 +77,10 @@ class SparseExtractor {
  private:
   template <class T>
   void extract_typed(std::size_t first, std::size_t last, MeshChunk& chunk, TaskTotals& totals);
-  void emit_triangles(std::size_t n, std::uint64_t base, MeshChunk& chunk);
+  template <class Writer>
+  static void write_vertices(const BlockEdges& edges, const Index3& origin, Writer& writer);
+  void emit_triangles(std::size_t n, std::uint64_t base, const BlockBits& above,
+                      const Mask512& cells, MeshChunk& chunk);
   [[nodiscard]] std::uint64_t boundary_edges(const Index3& block, const BlockBits& above,
                                              const Mask512& cells) const;
   const BlockEdges& edges_of(std::size_t n);
