@@ -72,7 +72,7 @@ class GltfSink final : public MeshSink {
   GltfSink(const std::string& path, const SinkOptions& options, bool is_glb);
 
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
@@ -249,7 +249,7 @@ void GltfSink::write_indices(const MeshChunk& chunk) {
       });
 }
 
-void GltfSink::write(const MeshChunk& chunk) {
+void GltfSink::place(const MeshChunk& chunk, std::size_t /*slot*/) {
   assert(!objects_.empty());
   counts_.add(object_, chunk);
   check_limits(counts_);

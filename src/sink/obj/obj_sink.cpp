@@ -28,7 +28,7 @@ class ObjSink final : public MeshSink {
   }
 
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override { out_.commit(); }
 
@@ -101,7 +101,7 @@ void ObjSink::write_faces(const MeshChunk& chunk) {
       [this](std::span<const std::byte> bytes) { faces_->append(bytes); });
 }
 
-void ObjSink::write(const MeshChunk& chunk) {
+void ObjSink::place(const MeshChunk& chunk, std::size_t /*slot*/) {
   assert(faces_);
   counts_.add(object_, chunk);
   write_vertices(chunk);

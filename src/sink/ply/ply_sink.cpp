@@ -29,7 +29,7 @@ class PlySink final : public MeshSink {
       : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
 
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
@@ -191,7 +191,7 @@ void PlySink::write_faces(const MeshChunk& chunk) {
       put);
 }
 
-void PlySink::write(const MeshChunk& chunk) {
+void PlySink::place(const MeshChunk& chunk, std::size_t /*slot*/) {
   assert(begun_);
   counts_.add(object_, chunk);
   check_vertices(counts_.n_vertices);

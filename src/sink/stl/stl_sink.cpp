@@ -52,7 +52,7 @@ class StlSink final : public MeshSink {
       : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
 
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
@@ -105,7 +105,7 @@ void StlSink::begin_object(const MeshObject& object) {
   triangles_.emplace(out_);
 }
 
-void StlSink::write(const MeshChunk& chunk) {
+void StlSink::place(const MeshChunk& chunk, std::size_t /*slot*/) {
   assert(begun_);
   counts_.add(object_, chunk);
   check_limits(counts_.n_vertices, counts_.n_triangles);
