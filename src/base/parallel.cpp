@@ -230,6 +230,11 @@ void on_many_threads(std::size_t n_items, std::size_t n_slots, std::span<const S
 
 #endif
 
+std::size_t pipeline_slots() {
+  const auto n_threads = static_cast<std::size_t>(thread_count());
+  return n_threads == 1 ? 1 : 2 * n_threads;
+}
+
 void pipeline(std::size_t n_items, std::size_t n_slots, std::span<const Step> steps) {
   if (n_items > 1 && n_slots > 1 && thread_count() > 1) {
     on_many_threads(n_items, n_slots, steps);

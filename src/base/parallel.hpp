@@ -37,6 +37,9 @@ struct Step {
   std::function<void(std::size_t item, std::size_t slot)> run;
 };
 
+/// Slots that keep all threads at work while items wait for their turn.
+[[nodiscard]] std::size_t pipeline_slots();
+
 /// Takes items 0..n-1 through all steps, each item through one after the other. At most `n_slots`
 /// items are on their way, and each has its slot in [0, n_slots) to itself from its first step to
 /// its last: scratch lives there. A step in order should be short. One thread takes the items one

@@ -158,10 +158,6 @@ void Drive::Work::extract() {
   base::pipeline(tasks.n_tasks(), results.size(), steps);
 }
 
-std::size_t slots_for(int n_threads) {
-  return n_threads == 1 ? 1 : 2 * static_cast<std::size_t>(n_threads);
-}
-
 MeshTotals Drive::run(TaskList& tasks, std::size_t n_slots, const RunOptions& options,
                       bool allow_empty, MeshSink& sink, Progress& progress,
                       const std::stop_token& stop) {

@@ -26,7 +26,4 @@ class Drive {
   std::vector<TaskResult> results_;
 };
 
-/// Slots that keep so many threads at work while chunks wait for their turn.
-[[nodiscard]] std::size_t slots_for(int n_threads);
-
 }  // namespace mc::pipe

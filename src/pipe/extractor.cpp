@@ -87,7 +87,7 @@ struct Extractor::Scratch {
       run_options.to_world = to_world;
       setup.emplace(type, dims, run_options);
     }
-    const std::size_t n_slots = pipe::slots_for(base::thread_count());
+    const std::size_t n_slots = base::pipeline_slots();
     if (n_slots != setup->n_slots) {
       setup->tasks->set_slots(n_slots);
       setup->n_slots = n_slots;

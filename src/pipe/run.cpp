@@ -27,7 +27,7 @@ std::string kibibytes(std::uint64_t bytes) {
 
 /// As many slots as the memory allows: the fewer, the fewer threads have work.
 std::size_t slots_within(const pipe::TaskList& tasks, std::uint64_t memory_bytes) {
-  std::size_t n_slots = pipe::slots_for(base::thread_count());
+  std::size_t n_slots = base::pipeline_slots();
   while (needed(tasks, n_slots) > memory_bytes) {
     if (n_slots == 1) {
       throw Error(ErrorKind::limit, "--memory",
@@ -43,7 +43,7 @@ std::size_t slots_within(const pipe::TaskList& tasks, std::uint64_t memory_bytes
 }  // namespace
 
 std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options) {
-  const std::size_t n_slots = pipe::slots_for(base::thread_count());
+  const std::size_t n_slots = base::pipeline_slots();
   return needed(*tasks_for(reader, options), n_slots);
 }
 
