@@ -3,9 +3,12 @@
 
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <string_view>
+
+#include "sink/shortest.hpp"
 
 // Numbers and lines of text formats. std::to_chars knows no locale and prints the shortest text
 // that reads back as the same number.
@@ -15,10 +18,17 @@ namespace mc::sink {
 /// The longest number: "-1.2345678901234567e-308"; 64 bits have 20 digits.
 constexpr std::size_t kMostDigits = 24;
 
-/// These write at `at`, where there is room, and return the end of what they wrote.
-template <class Number>
-char* print_number(char* at, Number value) {
+/// These write at `at`, where there is room for so many, and return the end of what they wrote.
+inline char* print_number(char* at, double value) {
   return std::to_chars(at, at + kMostDigits, value).ptr;
+}
+inline char* print_number(char* at, float value) {
+  return is_in_fast_range(value) ? print_shortest(at, value)
+                                 : std::to_chars(at, at + kMostDigits, value).ptr;
+}
+inline char* print_number(char* at, std::uint64_t value) {
+  return value < kFastIntegers ? print_small(at, static_cast<std::uint32_t>(value))
+                               : std::to_chars(at, at + kMostDigits, value).ptr;
 }
 
 inline char* print_text(char* at, std::string_view text) {

@@ -2,6 +2,7 @@
 #include "sink/obj/obj_sink.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -90,13 +91,19 @@ void ObjSink::print_normals(const MeshChunk& chunk, Piece& piece) const {
 
 void ObjSink::print_faces(const MeshChunk& chunk, Piece& piece) const {
   constexpr std::size_t kMostFace = 2 + 3 * (1 + kMostDigits + 2 + kMostDigits);
+  const bool one_id = object_.has_normals && first_normal_ == first_vertex_;
   make_lines(chunk.n_triangles(), kMostFace, piece.made, [&](std::size_t i, char* at) {
     *at++ = 'f';
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint64_t id = chunk.index_base + chunk.indices[3 * i + c];
       *at++ = ' ';
+      const char* const vertex = at;
       at = print_number(at, first_vertex_ + id);
-      if (object_.has_normals) {
+      if (one_id) {
+        const auto n = static_cast<std::size_t>(at - vertex);
+        std::memmove(print_text(at, "//"), vertex, kMostDigits);  // a fixed length is no call
+        at += 2 + n;
+      } else if (object_.has_normals) {
         at = print_number(print_text(at, "//"), first_normal_ + id);
       }
     }

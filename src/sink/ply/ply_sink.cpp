@@ -24,6 +24,8 @@ constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;     // of a `uin
 constexpr std::uint64_t kMostIntVertices = std::uint64_t{1} << 31;  // of an `int` index
 constexpr std::size_t kFaceBytes = 13;                              // uchar 3, three indices
 
+using Ids = std::array<std::uint32_t, 3>;
+
 class PlySink final : public MeshSink {
  public:
   PlySink(const std::string& path, const SinkOptions& options)
@@ -157,17 +159,19 @@ void PlySink::make_face_piece(const MeshChunk& chunk, Piece& piece) const {
   const auto ids = [base = static_cast<std::uint32_t>(chunk.index_base),
                     first = chunk.indices.data()](std::size_t i) {
     const std::uint32_t* id = first + 3 * i;
-    return std::array<std::uint32_t, 3>{base + id[0], base + id[1], base + id[2]};
+    return Ids{base + id[0], base + id[1], base + id[2]};
   };
   if (options_.ascii) {
     make_lines(chunk.n_triangles(), kMostTriple + 3, piece.made, [&](std::size_t i, char* at) {
-      at = print_triple(print_text(at, "3 "), ids(i).data());
+      const Ids three = ids(i);
+      const std::array<std::uint64_t, 3> wide{three[0], three[1], three[2]};
+      at = print_triple(print_text(at, "3 "), wide.data());
       *at++ = '\n';
       return at;
     });
   } else {
     make_records(chunk.n_triangles(), kFaceBytes, piece.made, [&](std::size_t i, std::byte* at) {
-      const auto three = ids(i);
+      const Ids three = ids(i);
       *at = std::byte{3};
       std::memcpy(at + 1, three.data(), sizeof three);
     });
