@@ -33,7 +33,9 @@ IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp"}
 
 # include pattern: the files below src/ that are the library's door.
 DOORS = {
-    "openvdb/*": ["source/vdb/*", "sink/vdb/*"],
+    "openvdb/*": ["sink/vdb/*"],
+    "blosc.h": ["source/vdb/*"],
+    "libdeflate.h": ["source/vdb/*"],
     "OpenEXR/*": ["source/exr/*", "sink/exr/*"],
     "Imf*": ["source/exr/*", "sink/exr/*"],
     "tiny_gltf*": ["sink/gltf/*"],

@@ -14,14 +14,19 @@ option(MC_GLTF "glTF and GLB through tinygltf" ${TinyGLTF_FOUND})
 # neighbours FindTBB and FindOpenEXR would shadow the good ones.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 find_package(OpenVDB 10 QUIET COMPONENTS openvdb)
-option(MC_VDB "OpenVDB volumes" ${OpenVDB_FOUND})
+find_library(MC_BLOSC blosc)
+find_library(MC_DEFLATE deflate)
+if(OpenVDB_FOUND AND MC_BLOSC AND MC_DEFLATE)
+  set(MC_VDB_FOUND ON)
+endif()
+option(MC_VDB "OpenVDB volumes" ${MC_VDB_FOUND})
 
 # Links what the formats need to `target` and defines MC_WITH_* for those that are built in.
 function(mc_link_formats target)
   target_compile_definitions(${target} PUBLIC
     MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>)
   if(MC_VDB)
-    target_link_libraries(${target} PRIVATE OpenVDB::openvdb)
+    target_link_libraries(${target} PRIVATE OpenVDB::openvdb blosc deflate)
   endif()
   if(MC_GLTF)
     target_link_libraries(${target} PRIVATE TinyGLTF::TinyGLTF)
