@@ -4,6 +4,9 @@
 find_package(TBB CONFIG REQUIRED COMPONENTS tbb) # before OpenVDB, which defines the same targets
 find_package(fmt CONFIG REQUIRED)
 find_package(hwy CONFIG REQUIRED)
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
+  set(MC_LINKS_HIGHWAY ON) # on x86 base/highway_simd.cpp stands in for the little that is used
+endif()
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 
@@ -26,7 +29,7 @@ function(mc_link_formats target)
   target_compile_definitions(${target} PUBLIC
     MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>)
   if(MC_VDB)
-    target_link_libraries(${target} PRIVATE OpenVDB::openvdb blosc deflate)
+    target_link_libraries(${target} PRIVATE blosc deflate)
   endif()
   if(MC_GLTF)
     target_link_libraries(${target} PRIVATE TinyGLTF::TinyGLTF)

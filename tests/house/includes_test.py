@@ -60,7 +60,7 @@ class IncludeLaw(unittest.TestCase):
         self.forbidden("src/pipe/a.cpp", '"mc/sink.hpp"', why)
 
     def test_library_doors(self):
-        vdb = "its door is src/sink/vdb/*"
+        vdb = "its door is src/sink/vdb/module/*"
         self.forbidden("src/source/vdb/a.cpp", "<openvdb/openvdb.h>", vdb)
         self.forbidden("src/sink/ply/a.cpp", "<tiny_gltf.h>", "its door is src/sink/gltf/*")
         self.forbidden("src/source/a.cpp", "<CLI/CLI.hpp>", "its door is src/cli/*")
