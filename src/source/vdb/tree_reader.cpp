@@ -217,11 +217,14 @@ void TypedReader<T>::collect_tiles(const TreeFile& file, const TreeOutline& outl
 
 template <class T>
 void TypedReader<T>::collect_tiles(const TreeOutline::Node& node, std::span<const T> values) {
+  const T background = background_.as<T>();
   for (std::size_t n = 0; n < values.size(); ++n) {
-    const Scalar value = Scalar::of(truth_of(values[n]));
-    const bool active = bit_of(node.active, n);
-    if (!bit_of(node.children, n) && (active || !(value == background_))) {
-      tiles_.push_back({node.child_origin(n), node.child_size, value, active});
+    const T value = truth_of(values[n]);
+    // Inlined, unlike a comparison of Scalars: most nodes have nothing but background.
+    const bool differs = __builtin_memcmp(&value, &background, sizeof(T)) != 0;
+    if ((differs || bit_of(node.active, n)) && !bit_of(node.children, n)) {
+      tiles_.push_back(
+          {node.child_origin(n), node.child_size, Scalar::of(value), bit_of(node.active, n)});
     }
   }
 }
