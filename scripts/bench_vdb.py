@@ -44,11 +44,12 @@ def machine():
     return f"{model}, {os.cpu_count()} threads, {platform.system()} {platform.release()}"
 
 
-def start_up(mc, folder, n_runs):
+def start_up(mc, bench, folder, n_runs):
     (folder / "a.raw").write_bytes(bytes(2048) + b"\xff" * 64 + bytes(1984))
     raw = [str(folder / "a.raw"), "--dims", "16,16,16", "--type", "u8", "--iso", "128"]
     sphere = str(ROOT / "data/specs/sphere.json")
-    tiny = str(ROOT / "data/corpus/vdb/float_level_set.vdb")
+    tiny = str(folder / "tiny.vdb")
+    subprocess.run([bench, "make", "sphere", "blosc", "32", tiny], check=True)
     out = ["--force", "-q", "-o"]
     print("| process | ms |\n|---|--:|")
     for name, args in {
@@ -93,13 +94,13 @@ def main():
     parser.add_argument("--folder", default="/dev/shm", help="where files are made")
     args = parser.parse_args()
     mc = str(args.build / "mc")
-    bench = args.build / "tests/mc_vdb_bench"
+    bench = str(args.build / "tests/mc_vdb_bench")
+    if not os.path.exists(bench):
+        sys.exit("bench_vdb.py: no mc_vdb_bench: configure with -DMC_BENCH=ON")
     print(f"{machine()}\n")
     with tempfile.TemporaryDirectory(dir=args.folder) as name:
-        start_up(mc, pathlib.Path(name), 10 * args.runs)
-        if not bench.exists():
-            sys.exit("bench_vdb.py: no mc_vdb_bench: configure with -DMC_BENCH=ON")
-        loading(str(bench), mc, pathlib.Path(name), args.size, args.runs)
+        start_up(mc, bench, pathlib.Path(name), 10 * args.runs)
+        loading(bench, mc, pathlib.Path(name), args.size, args.runs)
 
 
 if __name__ == "__main__":
