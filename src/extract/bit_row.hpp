@@ -10,6 +10,14 @@
 
 namespace mc::extraction {
 
+/// Rows are padded with zeros to a multiple of so many words: the widest vector, a cache line.
+inline constexpr std::size_t kWordsAtOnce = 8;
+
+/// Words of a padded row.
+inline std::size_t padded_words(std::size_t n_samples) {
+  return (n_samples + 64 * kWordsAtOnce - 1) / (64 * kWordsAtOnce) * kWordsAtOnce;
+}
+
 /// Word w of a row moved down by one sample: bit i is sample i + 1.
 inline std::uint64_t next_samples(const std::uint64_t* row, std::size_t w, std::size_t n_words) {
   return (row[w] >> 1) | (w + 1 < n_words ? row[w + 1] << 63 : 0);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "extract/row_kernels.hpp"
 #include "extract/surface_sums.hpp"
+#include "extract/vertex_writer.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
 
@@ -48,23 +50,29 @@ class DenseExtractor {
  private:
   /// Bits of one plane and the first ids of its rows.
   struct Plane {
-    std::vector<std::uint64_t> words;
+    Buffer<std::uint64_t> words;
     std::vector<std::uint32_t> i_start, j_start;
   };
 
   [[nodiscard]] BitPlane bits(const Plane& plane) const;
-  [[nodiscard]] CellLayer layer() const;
+  [[nodiscard]] static PlaneIds ids(Plane& plane);
+  [[nodiscard]] CellLayer layer();
+  [[nodiscard]] std::int32_t pad() const { return capped_ ? 1 : 0; }
   void classify(const Slab& slab, std::int32_t plane, Plane& out) const;
   void pad_row(std::uint64_t* row) const;
-  void emit_layer(MeshChunk& chunk) const;
+  void emit_layer(MeshChunk& chunk);
   [[nodiscard]] std::uint64_t boundary_edges(std::int32_t layer) const;
   template <class T, bool Swap>
   void extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
                      TaskTotals& totals);
-  template <class Writer>
-  void write_plane(const Plane& plane, std::int32_t p, Writer& writer) const;
-  template <class Writer>
-  void write_between(std::int32_t p, Writer& writer) const;
+  template <class R>
+  [[nodiscard]] EdgeList empty_list(EdgeBatch<R>& batch) const;
+  template <class Writer, class Sampler, class R>
+  std::uint32_t write_plane(Plane& plane, std::int32_t p, std::uint32_t next,
+                            const Sampler& sampler, EdgeBatch<R>& batch, Writer& writer) const;
+  template <class Writer, class Sampler, class R>
+  std::uint32_t write_between(std::int32_t p, std::uint32_t next, const Sampler& sampler,
+                              EdgeBatch<R>& batch, Writer& writer);
   template <class Vertices>
   [[nodiscard]] LayerSum measure(std::int32_t p, const Vertices& vertices) const;
 
@@ -79,8 +87,10 @@ class DenseExtractor {
   bool above_outside_;  ///< the constant layer of a closed border
   std::size_t row_samples_, n_rows_, n_words_;
   std::int32_t n_planes_;
+  Buffer<std::uint64_t> cells_;  ///< ones for the cells of a row
   Plane lower_, upper_;
   std::vector<std::uint32_t> k_start_;
+  std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
 };
 
 }  // namespace mc::extraction

@@ -12,9 +12,9 @@
 #include "extract/threshold.hpp"
 #include "mc/extract.hpp"
 
-// The vertex on a crossed lattice edge: where on the edge, where in the world, and its normal.
-// Dense and sparse engines share every line of it, so that they give the same bits. A Sampler
-// answers
+// The vertex on a crossed lattice edge: where on the edge, where in the world, and its normal, one
+// at a time; vertex_kernels.hpp does the same for many. Dense and sparse engines share every line,
+// so that they give the same bits. A Sampler answers
 //   Real at(Index3)           the sample as a Real; inside the box only
 //   T raw(Index3)             the sample itself
 //   const IndexBox& box()     the samples there are
@@ -108,13 +108,6 @@ struct Placement {
     outward = o.inside == Inside::above ? -1 : 1;
   }
 
-  [[nodiscard]] Vec3 position(const LatticeEdge& e, double t) const noexcept {
-    Vec3 p{static_cast<double>(e.lower[0]), static_cast<double>(e.lower[1]),
-           static_cast<double>(e.lower[2])};
-    p[static_cast<std::size_t>(e.axis)] += t;
-    return map(p);
-  }
-
   /// The map without its translation.
   [[nodiscard]] Vec3 linear(const Vec3& p) const noexcept {
     const std::array<double, 12>& m = map.m;
@@ -134,18 +127,28 @@ inline double largest_of(const Vec3& v) {
   return std::max(std::max(std::abs(v[0]), std::abs(v[1])), std::abs(v[2]));
 }
 
+/// Squared lengths that are neither lost nor overflow.
+inline constexpr double kShortestSquare = 0x1p-900;
+inline constexpr double kLongestSquare = 0x1p900;
+
+inline double square_of(const Vec3& v) { return (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]; }
+
 /// Unit length, or false where the vector is zero or not finite.
 inline bool normalise(Vec3& v) {
-  const double scale = largest_of(v);
-  if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite((v[0] + v[1]) + v[2])) {
-    return false;
+  double square = square_of(v);
+  if (!(square >= kShortestSquare && square <= kLongestSquare)) {
+    const double scale = largest_of(v);
+    if (!(scale > 0) || !std::isfinite(scale) || !std::isfinite((v[0] + v[1]) + v[2])) {
+      return false;
+    }
+    for (double& x : v) {
+      x /= scale;
+    }
+    square = square_of(v);
   }
+  const double inverse = 1 / std::sqrt(square);
   for (double& x : v) {
-    x /= scale;
-  }
-  const double length = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
-  for (double& x : v) {
-    x /= length;
+    x *= inverse;
   }
   return true;
 }
@@ -187,17 +190,33 @@ class EdgeVertices {
     return e.lower[a] < sampler_.box().lo[a] ? -1 : e.lower[a] >= sampler_.box().hi[a] ? 1 : 0;
   }
 
-  /// The edge's parameter. An edge to the layer outside is cut next to the border sample.
-  [[nodiscard]] R parameter(const LatticeEdge& e) const noexcept {
-    const int out = leads_out(e);
-    if (out != 0) {
-      return out < 0 ? rules_.edge.high : rules_.edge.low;
-    }
-    return rules_.edge.parameter(sampler_.at(e.lower), sampler_.at(step(e.lower, e.axis)));
+  /// The parameter of an edge to the layer outside, which is cut next to the border sample.
+  [[nodiscard]] R outer_parameter(int leads_out) const noexcept {
+    return leads_out < 0 ? rules_.edge.high : rules_.edge.low;
   }
 
-  [[nodiscard]] Vec3 position(const LatticeEdge& e, R t) const noexcept {
-    return rules_.placement.position(e, static_cast<double>(t));
+  /// The edge's parameter.
+  [[nodiscard]] R parameter(const LatticeEdge& e) const noexcept {
+    const int out = leads_out(e);
+    return out != 0
+               ? outer_parameter(out)
+               : rules_.edge.parameter(sampler_.at(e.lower), sampler_.at(step(e.lower, e.axis)));
+  }
+
+  /// Central differences, one-sided at the box's border, per step of the lattice.
+  [[nodiscard]] std::array<R, 3> gradient(const Index3& p) const noexcept {
+    std::array<R, 3> g;
+    for (std::size_t a = 0; a < 3; ++a) {
+      Index3 before = p;
+      Index3 behind = p;
+      before[a] = std::max(p[a] - 1, sampler_.box().lo[a]);
+      behind[a] = std::min(p[a] + 1, sampler_.box().hi[a]);
+      g[a] = sampler_.at(behind) - sampler_.at(before);
+      if (behind[a] - before[a] == 2) {
+        g[a] *= R{0.5};
+      }
+    }
+    return g;
   }
 
   [[nodiscard]] std::array<float, 3> normal(const LatticeEdge& e, R t) const noexcept {
@@ -264,22 +283,6 @@ class EdgeVertices {
     const LatticeEdge e = edge_of(cell, edge);
     p[static_cast<std::size_t>(e.axis)] += static_cast<double>(parameter(e));
     return rules_.placement.linear(p);
-  }
-
-  /// Central differences, one-sided at the box's border, per step of the lattice.
-  [[nodiscard]] std::array<R, 3> gradient(const Index3& p) const noexcept {
-    std::array<R, 3> g;
-    for (std::size_t a = 0; a < 3; ++a) {
-      Index3 before = p;
-      Index3 behind = p;
-      before[a] = std::max(p[a] - 1, sampler_.box().lo[a]);
-      behind[a] = std::min(p[a] + 1, sampler_.box().hi[a]);
-      g[a] = sampler_.at(behind) - sampler_.at(before);
-      if (behind[a] - before[a] == 2) {
-        g[a] *= R{0.5};
-      }
-    }
-    return g;
   }
 
   /// The world direction out of the solid by the gradient at the vertex.
@@ -358,61 +361,6 @@ class EdgeVertices {
 
   const VertexRules<T>& rules_;
   const Sampler& sampler_;
-};
-
-/// Appends vertices to a chunk, in the order they are given.
-template <class T, class Sampler>
-class VertexWriter {
- public:
-  VertexWriter(const VertexRules<T>& rules, const Sampler& sampler, Precision precision,
-               MeshChunk& chunk, Bounds& bounds)
-      : vertices_(rules, sampler),
-        has_normals_(rules.normals != Normals::none),
-        f64_(precision == Precision::f64),
-        chunk_(chunk),
-        bounds_(bounds) {}
-
-  void reserve_next(std::size_t n) {
-    next_ = chunk_.n_vertices();
-    if (f64_) {
-      chunk_.positions_f64.resize(3 * (next_ + n));
-    } else {
-      chunk_.positions.resize(3 * (next_ + n));
-    }
-    if (has_normals_) {
-      chunk_.normals.resize(3 * (next_ + n));
-    }
-  }
-
-  void write(const LatticeEdge& e) {
-    const auto t = vertices_.parameter(e);
-    const Vec3 p = vertices_.position(e, t);
-    if (f64_) {
-      std::copy(p.begin(), p.end(), chunk_.positions_f64.begin() + offset());
-      bounds_.include(p);
-    } else {
-      const std::array<float, 3> q{static_cast<float>(p[0]), static_cast<float>(p[1]),
-                                   static_cast<float>(p[2])};
-      std::copy(q.begin(), q.end(), chunk_.positions.begin() + offset());
-      bounds_.include(
-          Vec3{static_cast<double>(q[0]), static_cast<double>(q[1]), static_cast<double>(q[2])});
-    }
-    if (has_normals_) {
-      const std::array<float, 3> n = vertices_.normal(e, t);
-      std::copy(n.begin(), n.end(), chunk_.normals.begin() + offset());
-    }
-    ++next_;
-  }
-
- private:
-  [[nodiscard]] std::ptrdiff_t offset() const { return static_cast<std::ptrdiff_t>(3 * next_); }
-
-  EdgeVertices<T, Sampler> vertices_;
-  bool has_normals_;
-  bool f64_;
-  MeshChunk& chunk_;
-  Bounds& bounds_;
-  std::size_t next_ = 0;
 };
 
 }  // namespace mc::extraction

@@ -12,8 +12,6 @@
 #include <hwy/highway.h>
 
 #include <bit>
-#include <cstring>
-#include <type_traits>
 
 #include "extract/bit_row.hpp"
 #include "extract/case_table.hpp"
@@ -24,197 +22,168 @@ namespace mc::extraction {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Without vectors a sample at a time: what MC_SIMD=scalar runs, and old machines.
-template <class T, bool Swap>
-void classify_row_scalar(const Threshold& threshold, const std::byte* samples, std::size_t n,
-                         std::uint64_t* words) {
-  for (std::size_t first = 0; first < n; first += 64) {
-    const std::size_t end = n - first < 64 ? n - first : 64;
-    std::uint64_t word = 0;
-    for (std::size_t b = 0; b < end; ++b) {
-      const T sample = field::load_sample<T, Swap>(samples + (first + b) * sizeof(T));
-      word |= std::uint64_t{is_above(sample, threshold)} << b;
-    }
-    words[first / 64] = word;
-  }
-}
-
-#if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
-
-template <class T, bool Swap>
-void classify_row(const Threshold& threshold, const std::byte* samples, std::size_t n,
-                  std::uint64_t* words) {
-  classify_row_scalar<T, Swap>(threshold, samples, n, words);
-}
-
-#else
-
-/// Reverses the bytes of every lane.
-template <class D, class V>
-V byte_swapped(D d, V v) {
-  constexpr std::size_t kSize = sizeof(hn::TFromD<D>);
-  const hn::Repartition<std::uint8_t, D> bytes;
-  alignas(16) static constexpr std::uint8_t kOrder2[16] = {1, 0, 3,  2,  5,  4,  7,  6,
-                                                           9, 8, 11, 10, 13, 12, 15, 14};
-  alignas(16) static constexpr std::uint8_t kOrder4[16] = {3,  2,  1, 0, 7,  6,  5,  4,
-                                                           11, 10, 9, 8, 15, 14, 13, 12};
-  alignas(16) static constexpr std::uint8_t kOrder8[16] = {7,  6,  5,  4,  3,  2,  1, 0,
-                                                           15, 14, 13, 12, 11, 10, 9, 8};
-  const std::uint8_t* order = kSize == 2 ? kOrder2 : kSize == 4 ? kOrder4 : kOrder8;
-  return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(bytes, v), hn::LoadDup128(bytes, order)));
-}
-
-/// Vectors of samples from unaligned bytes, as the numbers to compare: Half widens to float.
-template <class T, bool Swap>
-struct VectorLoader {
-  using D = hn::ScalableTag<Number<T> >;
-
-  static auto load(D d, const std::byte* at) {
-    if constexpr (std::is_same_v<T, Half>) {
-      const hn::Rebind<std::uint16_t, D> narrow;
-      const hn::Rebind<hwy::float16_t, D> half;
-      auto bits = hn::LoadU(narrow, reinterpret_cast<const std::uint16_t*>(at));
-      if constexpr (Swap) {
-        bits = hn::Or(hn::ShiftLeft<8>(bits), hn::ShiftRight<8>(bits));
-      }
-      return hn::PromoteTo(d, hn::BitCast(half, bits));
-    } else {
-      auto v = hn::LoadU(d, reinterpret_cast<const T*>(at));
-      if constexpr (Swap) {
-        v = byte_swapped(d, v);
-      }
-      return v;
-    }
-  }
-};
-
-template <bool NanAbove, class V>
-auto above_mask(V v, V level) {
-  if constexpr (std::is_floating_point_v<hn::TFromV<V> > && !NanAbove) {
-    return hn::Ge(v, level);
-  } else if constexpr (std::is_floating_point_v<hn::TFromV<V> >) {
-    return hn::Not(hn::Lt(v, level));
-  } else {
-    return hn::Not(hn::Gt(level, v));
-  }
-}
-
-template <class T, bool Swap, bool NanAbove>
-void classify_row_vector(const Threshold& threshold, const std::byte* samples, std::size_t n,
-                         std::uint64_t* words) {
-  using Loader = VectorLoader<T, Swap>;
-  const typename Loader::D d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto level = hn::Set(d, threshold.level.as<Number<T> >());
-  const std::size_t n_whole = n / 64;
-  for (std::size_t w = 0; w < n_whole; ++w) {
-    std::uint64_t word = 0;
-    const std::byte* at = samples + w * 64 * sizeof(T);
-    for (std::size_t b = 0; b < 64; b += lanes) {
-      std::uint64_t bits = 0;
-      const auto mask = above_mask<NanAbove>(Loader::load(d, at + b * sizeof(T)), level);
-      hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
-      word |= bits << b;
-    }
-    words[w] = word;
-  }
-  if (n % 64 != 0) {
-    classify_row_scalar<T, Swap>(threshold, samples + n_whole * 64 * sizeof(T), n % 64,
-                                 words + n_whole);
-  }
-}
-
-template <class T, bool Swap>
-void classify_row(const Threshold& threshold, const std::byte* samples, std::size_t n,
-                  std::uint64_t* words) {
-  if (threshold.nan_above) {
-    classify_row_vector<T, Swap, true>(threshold, samples, n, words);
-  } else {
-    classify_row_vector<T, Swap, false>(threshold, samples, n, words);
-  }
-}
-
-#endif
-
-template <class T, bool Swap>
-void classify_typed(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
-                    std::size_t words_per_row) {
-  for (std::size_t j = 0; j < rows.n_rows; ++j) {
-    classify_row<T, Swap>(threshold, rows.first + j * rows.stride_bytes, rows.n_samples,
-                          words + j * words_per_row);
-  }
-}
-
-void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
-                   std::size_t words_per_row) {
-  if (threshold.none_above) {
-    std::memset(words, 0, rows.n_rows * words_per_row * sizeof *words);
-    return;
-  }
-  field::visit_type(threshold.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
-    if (threshold.swap) {
-      classify_typed<T, true>(threshold, rows, words, words_per_row);
-    } else {
-      classify_typed<T, false>(threshold, rows, words, words_per_row);
-    }
-  });
-}
+using Words = hn::CappedTag<std::uint64_t, kWordsAtOnce>;
+using WordVector = hn::Vec<Words>;
 
 inline std::uint32_t ones(std::uint64_t word) {
   return static_cast<std::uint32_t>(std::popcount(word));
 }
 
-std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, std::uint32_t* i_start,
-                           std::uint32_t* j_start) {
-  for (std::size_t j = 0; j < plane.n_rows; ++j) {
-    const std::uint64_t* row = plane.row(j);
-    i_start[j] = next;
-    for (std::size_t w = 0; w < plane.words_per_row; ++w) {
-      next += ones((row[w] ^ next_samples(row, w, plane.words_per_row)) &
-                   cell_mask(plane.n_samples, w));
+/// Words of a row from w on, each moved down by one sample: bit i is sample i + 1.
+inline WordVector load_next(const std::uint64_t* row, std::size_t w) {
+  const Words d;
+  return hn::Or(hn::ShiftRight<1>(hn::LoadU(d, row + w)),
+                hn::ShiftLeft<63>(hn::LoadU(d, row + w + 1)));
+}
+
+/// The crossed i-edges of a row, and the crossed edges from one row to another.
+struct AlongRow {
+  const std::uint64_t* row;
+  const std::uint64_t* cells;
+  [[nodiscard]] WordVector at(std::size_t w) const {
+    const Words d;
+    return hn::And(hn::Xor(hn::LoadU(d, row + w), load_next(row, w)), hn::LoadU(d, cells + w));
+  }
+};
+struct BetweenRows {
+  const std::uint64_t* a;
+  const std::uint64_t* b;
+  [[nodiscard]] WordVector at(std::size_t w) const {
+    const Words d;
+    return hn::Xor(hn::LoadU(d, a + w), hn::LoadU(d, b + w));
+  }
+};
+
+/// Calls f(w, word) for the words of a row that are not zero, lowest first.
+template <class Source, class F>
+HWY_INLINE void for_each_word(const Source& source, std::size_t n_words, F&& f) {
+  const Words d;
+  for (std::size_t first = 0; first < n_words; first += hn::Lanes(d)) {
+    const WordVector v = source.at(first);
+    std::uint64_t some = 0;
+    hn::StoreMaskBits(d, hn::Ne(v, hn::Zero(d)), reinterpret_cast<std::uint8_t*>(&some));
+    if (some == 0) {
+      continue;
     }
-    j_start[j] = next;
+    HWY_ALIGN std::uint64_t words[kWordsAtOnce];
+    hn::Store(v, d, words);
+    for (; some != 0; some &= some - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(some));
+      f(first + lane, words[lane]);
+    }
+  }
+}
+
+template <class Source>
+HWY_INLINE std::uint32_t count_row(const Source& source, std::size_t n_words) {
+  std::uint32_t n = 0;
+  for_each_word(source, n_words, [&](std::size_t /*w*/, std::uint64_t word) { n += ones(word); });
+  return n;
+}
+
+std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids) {
+  for (std::size_t j = 0; j < plane.n_rows; ++j) {
+    ids.i[j] = next;
+    next += count_row(AlongRow{plane.row(j), plane.cells}, plane.words_per_row);
+    ids.j[j] = next;
     if (j + 1 < plane.n_rows) {
-      const std::uint64_t* above = plane.row(j + 1);
-      for (std::size_t w = 0; w < plane.words_per_row; ++w) {
-        next += ones(row[w] ^ above[w]);
-      }
+      next += count_row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_per_row);
     }
   }
   return next;
 }
 
 std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
-                             std::uint32_t* k_start) {
+                             std::uint32_t* k_ids) {
   for (std::size_t j = 0; j < lower.n_rows; ++j) {
-    const std::uint64_t* a = lower.row(j);
-    const std::uint64_t* b = upper.row(j);
-    k_start[j] = next;
-    for (std::size_t w = 0; w < lower.words_per_row; ++w) {
-      next += ones(a[w] ^ b[w]);
-    }
+    k_ids[j] = next;
+    next += count_row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row);
   }
   return next;
 }
+
+/// Writes the places of a row's set bits. Four are written at once whatever their number is: most
+/// words have fewer, and a loop would be mispredicted at every end.
+template <class Source>
+HWY_INLINE std::int32_t* list_row(const Source& source, std::size_t n_words, std::int32_t first_i,
+                                  std::int32_t* out) {
+  for_each_word(source, n_words, [&](std::size_t w, std::uint64_t word) {
+    const std::int32_t base = first_i + static_cast<std::int32_t>(w * 64);
+    std::int32_t* const end = out + ones(word);
+    for (;;) {
+      for (std::size_t n = 0; n < 4; ++n) {
+        out[n] = base + std::countr_zero(word);
+        word &= word - 1;
+      }
+      if (word == 0) break;
+      out += 4;
+    }
+    out = end;
+  });
+  return out;
+}
+
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+                       const PlaneIds& ids, EdgeList& list) {
+  const std::size_t n_words = plane.words_per_row;
+  const std::uint32_t first_id = next;
+  std::int32_t* out = list.i;
+  const std::int32_t* const last = list.i + (list.room - list_room(plane));
+  for (; j < plane.n_rows && out <= last; ++j) {
+    const auto id = [&] { return first_id + static_cast<std::uint32_t>(out - list.i); };
+    ids.i[j] = id();
+    out = list_row(AlongRow{plane.row(j), plane.cells}, n_words, list.first_i, out);
+    ids.j[j] = id();
+    if (j + 1 < plane.n_rows) {
+      out = list_row(BetweenRows{plane.row(j), plane.row(j + 1)}, n_words, list.first_i, out);
+    }
+  }
+  list.n = static_cast<std::size_t>(out - list.i);
+  next = first_id + static_cast<std::uint32_t>(list.n);
+  return j;
+}
+
+std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
+                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& list) {
+  const std::uint32_t first_id = next;
+  std::int32_t* out = list.i;
+  const std::int32_t* const last = list.i + (list.room - list_room(lower));
+  for (; j < lower.n_rows && out <= last; ++j) {
+    k_ids[j] = first_id + static_cast<std::uint32_t>(out - list.i);
+    out = list_row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row, list.first_i, out);
+  }
+  list.n = static_cast<std::size_t>(out - list.i);
+  next = first_id + static_cast<std::uint32_t>(list.n);
+  return j;
+}
+
+/// Cells of a row of cells, between four rows of samples, that the surface passes through.
+struct ActiveCells {
+  const std::uint64_t* const* rows;
+  const std::uint64_t* cells;
+  [[nodiscard]] WordVector at(std::size_t w) const {
+    const Words d;
+    WordVector any = hn::Zero(d);
+    WordVector all = hn::Not(any);
+    for (std::size_t r = 0; r < 4; ++r) {
+      const WordVector here = hn::LoadU(d, rows[r] + w);
+      const WordVector next = load_next(rows[r], w);
+      any = hn::Or(any, hn::Or(here, next));
+      all = hn::And(all, hn::And(here, next));
+    }
+    return hn::And(hn::AndNot(all, any), hn::LoadU(d, cells + w));
+  }
+};
 
 /// The eight sample words of 64 cells; word c holds the cells' corner c.
 struct CornerWords {
   std::uint64_t at[8];
 
-  CornerWords(const std::uint64_t* const rows[4], std::size_t w, std::size_t n_words) {
+  CornerWords(const std::uint64_t* const rows[4], std::size_t w) {
     for (std::size_t r = 0; r < 4; ++r) {
       at[2 * r] = rows[r][w];
-      at[2 * r + 1] = next_samples(rows[r], w, n_words);
+      at[2 * r + 1] = (rows[r][w] >> 1) | (rows[r][w + 1] << 63);
     }
-  }
-  [[nodiscard]] std::uint64_t active() const {
-    std::uint64_t any = 0;
-    std::uint64_t all = ~std::uint64_t{0};
-    for (const std::uint64_t word : at) {
-      any |= word;
-      all &= word;
-    }
-    return any & ~all;
   }
   [[nodiscard]] unsigned cell_case(unsigned bit) const {
     unsigned out = 0;
@@ -225,15 +194,143 @@ struct CornerWords {
   }
 };
 
-/// The twelve vertex ids of a cell from eight rows of crossed edges: four of i-edges, then two each
-/// of j- and k-edges, which the cell uses at its bit and at the next.
+/// A row of cells on its way to triangles: eight rows of crossed edges, four of i-edges, then two
+/// each of j- and k-edges, which a cell uses at its bit and at the next.
+struct CellRow {
+  const std::uint64_t* rows[4];
+  const std::uint64_t* cells;
+  std::uint32_t ids[8];  ///< of the first vertex of each row of edges
+
+  CellRow(const CellLayer& l, std::size_t j)
+      : rows{l.lower.row(j), l.lower.row(j + 1), l.upper.row(j), l.upper.row(j + 1)},
+        cells(l.lower.cells),
+        ids{l.lower_ids.i[j], l.lower_ids.i[j + 1], l.upper_ids.i[j], l.upper_ids.i[j + 1],
+            l.lower_ids.j[j], l.upper_ids.j[j],     l.k_ids[j],       l.k_ids[j + 1]} {}
+};
+
+#if HWY_TARGET == HWY_AVX3_DL
+
+/// Where the vertex of a cell's edge is among sixteen ids: each row's id at the cell, then at the
+/// next one.
+constexpr std::uint8_t lane_of_edge(std::size_t edge) {
+  return static_cast<std::uint8_t>(edge < 4 ? 2 * edge : edge + 4);
+}
+
+/// The triangles of each case as lanes of the ids, and in the last byte their number.
+struct LaneTable {
+  alignas(64) std::uint8_t rows[256][16];
+
+  explicit LaneTable(bool flip) {
+    for (std::size_t c = 0; c < 256; ++c) {
+      const CaseRow& row = kCases[c];
+      for (std::size_t n = 0; n < 15; ++n) {
+        const std::size_t turned = flip && n % 3 != 0 ? n + 3 - 2 * (n % 3) : n;
+        rows[c][n] = lane_of_edge(row.edges[turned]);
+      }
+      rows[c][15] = static_cast<std::uint8_t>(3 * row.n_triangles);
+    }
+  }
+};
+
+/// Emits the active cells of one row, a cell in about twenty instructions and without a branch on
+/// its case. Eight lanes hold the words of the eight corners: testing all lanes for one bit is the
+/// case. Eight hold the rows of crossed edges: their ones below the bit, counted by lane, are the
+/// ids at the cell, and with the bit itself the ids at the next. The case's row of the table then
+/// permutes these sixteen ids into at most five triangles, all stored, of which the case's number
+/// count.
+class RowEmitter {
+ public:
+  explicit RowEmitter(const LaneTable& table) : table_(table.rows) {}
+
+  std::uint32_t* emit(const CellRow& row, std::size_t n_words, std::uint32_t* out) const {
+    const hn::Rebind<std::uint32_t, Words> half;
+    const Words d;
+    WordVector ids = hn::PromoteTo(d, hn::LoadU(half, row.ids));
+    ids = hn::Or(ids, hn::ShiftLeft<32>(ids));
+    for_each_word(ActiveCells{row.rows, row.cells}, n_words,
+                  [&](std::size_t w, std::uint64_t active) {
+                    const WordVector above = corners(row, w);
+                    const WordVector crossed = crossings(above, row.cells[w]);
+                    out = emit_word(above, crossed, ids, active, out);
+                    const WordVector n = hn::PopulationCount(crossed);
+                    ids = hn::Add(ids, hn::Or(n, hn::ShiftLeft<32>(n)));
+                  });
+    return out;
+  }
+
+ private:
+  static WordVector corners(const CellRow& row, std::size_t w) {
+    const hn::FixedTag<std::uint64_t, 2> d2;
+    const hn::FixedTag<std::uint64_t, 4> d4;
+    const Words d;
+    const auto pair = [&](std::size_t r) { return hn::LoadU(d2, row.rows[r] + w); };
+    const auto both =
+        hn::Combine(d, hn::Combine(d4, pair(3), pair(2)), hn::Combine(d4, pair(1), pair(0)));
+    const auto here = hn::DupEven(both);
+    const auto next = hn::Or(hn::ShiftRight<1>(here), hn::ShiftLeft<63>(hn::DupOdd(both)));
+    return hn::OddEven(next, here);
+  }
+
+  static WordVector crossings(WordVector above, std::uint64_t cells) {
+    const Words d;
+    HWY_ALIGN static constexpr std::uint64_t kLower[8] = {0, 2, 4, 6, 0, 4, 0, 2};
+    HWY_ALIGN static constexpr std::uint64_t kUpper[8] = {1, 3, 5, 7, 2, 6, 4, 6};
+    const auto lower = hn::TableLookupLanes(above, hn::SetTableIndices(d, kLower));
+    const auto upper = hn::TableLookupLanes(above, hn::SetTableIndices(d, kUpper));
+    const auto crossed = hn::Xor(lower, upper);
+    return hn::IfThenElse(hn::FirstN(d, 4), hn::And(crossed, hn::Set(d, cells)), crossed);
+  }
+
+  std::uint32_t* emit_word(WordVector above, WordVector crossed, WordVector ids,
+                           std::uint64_t active, std::uint32_t* out) const {
+    const Words d;
+    const hn::Repartition<std::uint32_t, Words> lanes;
+    const hn::Rebind<std::uint8_t, decltype(lanes)> bytes;
+    for (; active != 0; active &= active - 1) {
+      const WordVector bit = hn::Set(d, active & (~active + 1));
+      const WordVector below = hn::Set(d, (active & (~active + 1)) - 1);
+      std::uint8_t cell_case = 0;
+      hn::StoreMaskBits(d, hn::TestBit(above, bit), &cell_case);
+      const WordVector here = hn::PopulationCount(hn::And(crossed, below));
+      const WordVector next = hn::PopulationCount(hn::And(crossed, hn::Or(below, bit)));
+      const WordVector at = hn::Add(ids, hn::Or(here, hn::ShiftLeft<32>(next)));
+      const std::uint8_t* row = table_[cell_case];
+      const auto order = hn::PromoteTo(lanes, hn::Load(bytes, row));
+      hn::StoreU(hn::TableLookupLanes(hn::BitCast(lanes, at), hn::IndicesFromVec(lanes, order)),
+                 lanes, out);
+      out += row[15];
+    }
+    return out;
+  }
+
+  const std::uint8_t (*table_)[16];
+};
+
+const LaneTable& lane_table(bool flip) {
+  static const LaneTable tables[2] = {LaneTable(false), LaneTable(true)};
+  return tables[flip ? 1 : 0];
+}
+
+std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
+                           std::uint32_t* out) {
+  const RowEmitter emitter(lane_table(flip));
+  std::uint32_t* const first = out;
+  for (std::size_t j = j0; j < j1; ++j) {
+    out = emitter.emit(CellRow(layer, j), layer.lower.words_per_row, out);
+  }
+  return static_cast<std::size_t>(out - first);
+}
+
+#else
+
+/// The twelve vertex ids of a cell.
 struct CellIds {
   std::uint32_t next[8];  ///< id of the first crossed edge of each row in this word
   std::uint64_t crossed[8];
 
-  void set_words(const CornerWords& s, std::uint64_t mask) {
+  void set_words(const CornerWords& s, std::uint64_t cells) {
     for (std::size_t r = 0; r < 4; ++r) {
-      crossed[r] = (s.at[2 * r] ^ s.at[2 * r + 1]) & mask;
+      crossed[r] = (s.at[2 * r] ^ s.at[2 * r + 1]) & cells;
     }
     crossed[4] = s.at[0] ^ s.at[2];
     crossed[5] = s.at[4] ^ s.at[6];
@@ -258,62 +355,56 @@ struct CellIds {
   }
 };
 
-std::size_t emit_row(const CellLayer& layer, std::size_t j, bool flip, std::uint32_t* out) {
-  const std::size_t n_words = layer.lower.words_per_row;
-  const std::uint64_t* const rows[4] = {layer.lower.row(j), layer.lower.row(j + 1),
-                                        layer.upper.row(j), layer.upper.row(j + 1)};
-  CellIds cell{{layer.i_lower[j], layer.i_lower[j + 1], layer.i_upper[j], layer.i_upper[j + 1],
-                layer.j_lower[j], layer.j_upper[j], layer.k[j], layer.k[j + 1]},
-               {}};
+std::uint32_t* emit_row(const CellRow& row, std::size_t n_words, bool flip, std::uint32_t* out) {
+  CellIds cell;
+  std::copy(row.ids, row.ids + 8, cell.next);
   const std::size_t second = flip ? 2 : 1;
   const std::size_t third = flip ? 1 : 2;
-  std::uint32_t* const first = out;
-  for (std::size_t w = 0; w < n_words; ++w) {
-    const CornerWords corners(rows, w, n_words);
-    const std::uint64_t mask = cell_mask(layer.lower.n_samples, w);
-    std::uint64_t active = corners.active() & mask;
-    if (active == 0) {
-      continue;  // then no crossed edge of a later cell starts here either
-    }
-    cell.set_words(corners, mask);
-    for (; active != 0; active &= active - 1) {
-      const auto bit = static_cast<unsigned>(std::countr_zero(active));
-      std::uint32_t ids[12];
-      cell.at_bit(bit, ids);
-      const CaseRow& row = kCases[corners.cell_case(bit)];
-      for (std::size_t t = 0; t < row.n_triangles; ++t) {
-        out[0] = ids[row.edges[3 * t]];
-        out[1] = ids[row.edges[3 * t + second]];
-        out[2] = ids[row.edges[3 * t + third]];
-        out += 3;
-      }
-    }
-    cell.pass_word();
-  }
-  return static_cast<std::size_t>(out - first);
+  for_each_word(ActiveCells{row.rows, row.cells}, n_words,
+                [&](std::size_t w, std::uint64_t active) {
+                  const CornerWords corners(row.rows, w);
+                  cell.set_words(corners, row.cells[w]);
+                  for (; active != 0; active &= active - 1) {
+                    const auto bit = static_cast<unsigned>(std::countr_zero(active));
+                    std::uint32_t ids[12];
+                    cell.at_bit(bit, ids);
+                    const CaseRow& triangles = kCases[corners.cell_case(bit)];
+                    for (std::size_t t = 0; t < triangles.n_triangles; ++t) {
+                      out[0] = ids[triangles.edges[3 * t]];
+                      out[1] = ids[triangles.edges[3 * t + second]];
+                      out[2] = ids[triangles.edges[3 * t + third]];
+                      out += 3;
+                    }
+                  }
+                  cell.pass_word();
+                });
+  return out;
 }
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
                            std::uint32_t* out) {
-  std::size_t n = 0;
+  std::uint32_t* const first = out;
   for (std::size_t j = j0; j < j1; ++j) {
-    n += emit_row(layer, j, flip, out + n);
+    out = emit_row(CellRow(layer, j), layer.lower.words_per_row, flip, out);
   }
-  return n;
+  return static_cast<std::size_t>(out - first);
 }
+
+#endif
 
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
   std::uint64_t n = 0;
   for (std::size_t j = 0; j + 1 < lower.n_rows; ++j) {
     const std::uint64_t* const rows[4] = {lower.row(j), lower.row(j + 1), upper.row(j),
                                           upper.row(j + 1)};
-    for (std::size_t w = 0; w < lower.words_per_row; ++w) {
-      const CornerWords corners(rows, w, lower.words_per_row);
-      std::uint64_t active = corners.active() & cell_mask(lower.n_samples, w);
-      for (; active != 0; active &= active - 1) {
-        n += kCases[corners.cell_case(static_cast<unsigned>(std::countr_zero(active)))].n_triangles;
-      }
-    }
+    for_each_word(ActiveCells{rows, lower.cells}, lower.words_per_row,
+                  [&](std::size_t w, std::uint64_t active) {
+                    const CornerWords corners(rows, w);
+                    for (; active != 0; active &= active - 1) {
+                      const auto bit = static_cast<unsigned>(std::countr_zero(active));
+                      n += kCases[corners.cell_case(bit)].n_triangles;
+                    }
+                  });
   }
   return n;
 }

@@ -4,55 +4,69 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "extract/threshold.hpp"
+#include "extract/bit_row.hpp"
 
-// The kernels of the engine that are compiled for every SIMD target and chosen at run time: one bit
-// a sample from a plane of samples, and word arithmetic on those bits: counts, ids, triangles. A
-// call handles a plane or a layer, so that the choice costs nothing.
+// Word arithmetic on sample bits: which edges are crossed, the ids of their vertices, triangles.
+// Compiled for every SIMD target and chosen at run time. A call handles many rows, so that the
+// choice costs nothing.
 
 namespace mc::extraction {
 
-/// Rows of samples in memory.
-struct SampleRows {
-  const std::byte* first = nullptr;
-  std::size_t stride_bytes = 0;
-  std::size_t n_samples = 0;  ///< in a row
-  std::size_t n_rows = 0;
-};
-
-/// Sets bit i of row r (words + r * words_per_row) where sample (i, r) is above; bits past the
-/// row's end are zero. words_per_row >= ceil(n_samples / 64).
-void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
-                   std::size_t words_per_row);
-
-/// A plane of sample bits. Bits past n_samples are zero.
+/// A plane of sample bits in padded rows: bits past n_samples are zero.
 struct BitPlane {
   const std::uint64_t* words = nullptr;
-  std::size_t words_per_row = 0;
+  const std::uint64_t* cells = nullptr;  ///< one row: ones for the cells, or i-edges
+  std::size_t words_per_row = 0;         ///< a multiple of kWordsAtOnce; one more can be read
   std::size_t n_samples = 0;
   std::size_t n_rows = 0;
 
   [[nodiscard]] const std::uint64_t* row(std::size_t j) const { return words + j * words_per_row; }
 };
 
-/// Writes the id of the first i-vertex and the first j-vertex of each row, counting from `next`;
-/// row by row, i before j. Returns the id after the last.
-std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, std::uint32_t* i_start,
-                           std::uint32_t* j_start);
+/// Ids that follow from the number of crossed edges: of the first i- and the first j-vertex of each
+/// row, or of the first k-vertex of each row.
+struct PlaneIds {
+  std::uint32_t* i = nullptr;
+  std::uint32_t* j = nullptr;
+};
+
+/// Writes the ids of a plane's rows, counting from `next`; row by row, i before j. Returns the id
+/// after the last.
+std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids);
 /// The same for the k-vertices between two planes.
 std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
-                             std::uint32_t* k_start);
+                             std::uint32_t* k_ids);
+
+/// Crossed edges of some rows: the place in its row of each one's lower sample, counted from
+/// `first_i`, in the order of their vertices.
+struct EdgeList {
+  std::int32_t first_i = 0;
+  std::int32_t* i = nullptr;
+  std::size_t room = 0;  ///< at least list_room(plane); more makes calls rarer
+  std::size_t n = 0;
+};
+/// Room that listing needs: two edges a sample of one row, and what is written past the end.
+inline std::size_t list_room(const BitPlane& plane) { return 2 * plane.n_samples + 8; }
+
+/// Numbers and lists i- and j-edges of rows from j on while there is room for one more; `next` is
+/// the first id and becomes the id after the last. Returns the row after the last.
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+                       const PlaneIds& ids, EdgeList& out);
+/// The same for the k-edges between two planes.
+std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
+                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out);
 
 /// One layer of cells: the planes below and above it, and the first ids of their rows.
 struct CellLayer {
   BitPlane lower, upper;
-  const std::uint32_t *i_lower = nullptr, *j_lower = nullptr;
-  const std::uint32_t *i_upper = nullptr, *j_upper = nullptr;
-  const std::uint32_t* k = nullptr;
+  PlaneIds lower_ids, upper_ids;
+  const std::uint32_t* k_ids = nullptr;
 };
 
+/// Ids that emit_triangles() may write past the last.
+inline constexpr std::size_t kEmitSlack = 16;
 /// Writes the triangles of cell rows [j0, j1) as vertex ids, three each, in cell order. `flip`
-/// turns them round. Room for 15 ids a cell is needed. Returns the number of ids written.
+/// turns them round. Needs room for 15 ids a cell and kEmitSlack. Returns the number of ids.
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
                            std::uint32_t* out);
 /// How many triangles the layer has.

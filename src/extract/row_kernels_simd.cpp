@@ -19,9 +19,10 @@
 namespace mc::extraction {
 
 namespace {
-HWY_EXPORT(classify_rows);
 HWY_EXPORT(number_plane);
 HWY_EXPORT(number_between);
+HWY_EXPORT(list_plane);
+HWY_EXPORT(list_between);
 HWY_EXPORT(emit_triangles);
 HWY_EXPORT(count_triangles);
 
@@ -38,19 +39,23 @@ bool offered(std::int64_t target) { return (hwy::SupportedTargets() & HWY_TARGET
 std::string_view forced;
 }  // namespace
 
-void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
-                   std::size_t words_per_row) {
-  HWY_DYNAMIC_DISPATCH(classify_rows)(threshold, rows, words, words_per_row);
-}
-
-std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, std::uint32_t* i_start,
-                           std::uint32_t* j_start) {
-  return HWY_DYNAMIC_DISPATCH(number_plane)(plane, next, i_start, j_start);
+std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids) {
+  return HWY_DYNAMIC_DISPATCH(number_plane)(plane, next, ids);
 }
 
 std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
-                             std::uint32_t* k_start) {
-  return HWY_DYNAMIC_DISPATCH(number_between)(lower, upper, next, k_start);
+                             std::uint32_t* k_ids) {
+  return HWY_DYNAMIC_DISPATCH(number_between)(lower, upper, next, k_ids);
+}
+
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+                       const PlaneIds& ids, EdgeList& out) {
+  return HWY_DYNAMIC_DISPATCH(list_plane)(plane, j, next, ids, out);
+}
+
+std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
+                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out) {
+  return HWY_DYNAMIC_DISPATCH(list_between)(lower, upper, j, next, k_ids, out);
 }
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,

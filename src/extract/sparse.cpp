@@ -7,7 +7,8 @@
 
 #include "base/parallel.hpp"
 #include "extract/bit_row.hpp"
-#include "extract/row_kernels.hpp"
+#include "extract/classify.hpp"
+#include "extract/vertex_writer.hpp"
 
 namespace mc::extraction {
 
@@ -364,14 +365,17 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
   VertexRules<T> rules(plan_.options_, plan_.to_world_, plan_.threshold_);
   rules.capped = plan_.capped_ && plan_.options_.region.has_value();
   const EdgeVertices<T, Sampler> vertices(rules, sampler);
-  VertexWriter<T, Sampler> writer(rules, sampler, plan_.options_.precision, chunk, totals.bounds);
+  VertexWriter<T, Sampler> writer(rules, sampler, plan_.options_.precision,
+                                  std::get<EdgeBatch<Real<T>>>(batches_), chunk, totals.bounds);
   const std::uint64_t base = plan_.first_[first];
-  writer.reserve_next(plan_.first_[last] - base);
   for (std::size_t n = first; n < last; ++n) {
     const Index3& block = plan_.blocks_[n];
     const Index3 o = origin_of(block);
     sampler.move_to(block);
-    if (plan_.first_[n + 1] != plan_.first_[n]) write_vertices(edges_of(n), o, writer);
+    if (plan_.first_[n + 1] != plan_.first_[n]) {
+      write_vertices(edges_of(n), o, writer);
+      writer.flush();  // while the sampler is here
+    }
     if (plan_.n_triangles_[n] == 0) continue;
     const BlockBits above = plan_.bits_around(block);
     const Mask512 cells = find_cells(above, plan_.exists_around(block));

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "extract/block_index.hpp"
 #include "extract/block_kernels.hpp"
 #include "extract/surface_sums.hpp"
+#include "extract/vertex_writer.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
 
@@ -94,6 +96,7 @@ class SparseExtractor {
   const SparsePlan& plan_;
   std::vector<CachedEdges> cache_;
   std::vector<std::byte> leaf_scratch_;
+  std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
 };
 
 }  // namespace mc::extraction

@@ -142,12 +142,16 @@ class ReferenceExtractor {
   }
 
   static bool unit(Vec3& v) {
-    const double s = std::fmax(std::fmax(std::fabs(v[0]), std::fabs(v[1])), std::fabs(v[2]));
     const bool finite = std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
-    if (!(s > 0) || !finite) return false;
-    for (double& x : v) x /= s;
-    const double l = std::sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]);
-    for (double& x : v) x /= l;
+    double square = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
+    if (!finite || (v[0] == 0 && v[1] == 0 && v[2] == 0)) return false;
+    if (square < 0x1p-900 || square > 0x1p900) {
+      const double s = std::fmax(std::fmax(std::fabs(v[0]), std::fabs(v[1])), std::fabs(v[2]));
+      for (double& x : v) x /= s;
+      square = (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2];
+    }
+    const double inverse = 1 / std::sqrt(square);
+    for (double& x : v) x *= inverse;
     return true;
   }
   static std::array<float, 3> narrow(const Vec3& v) {
