@@ -22,7 +22,6 @@ import tempfile
 import bench_report
 
 FIELDS = ("sphere", "terrain", "gyroid", "noise")
-# What MODES asks for, in the order in which it is run.
 PARTS = ("dense", "sparse", "growth")
 
 
@@ -64,6 +63,7 @@ class Contestant:
         self.process = subprocess.Popen([str(word) for word in command], stdin=subprocess.PIPE,
                                         stdout=subprocess.PIPE, text=True)
         if self.process.stdout.readline() != "ready\n":
+            self.close()
             sys.exit(f"bench: {name} failed: {command}")
 
     def turn(self):
@@ -74,8 +74,7 @@ class Contestant:
         self.vertices, self.faces = int(vertices), int(faces)
 
     def close(self):
-        self.process.stdin.close()
-        self.process.wait()
+        self.process.communicate()  # the end of its stdin ends it
 
     def result(self):
         median = statistics.median(self.seconds)
@@ -121,8 +120,8 @@ def dense_contest(bench, path, size, threads, normals, heaps=("kept", "plain"), 
         peers |= vtk_commands(bench, path, size, threads, normals, heaps)
     if vdb and bench.has("vdb_peer") and normals == "none":
         peers["vdb"] = [bench.program("vdb_peer"), "dense", path, size, threads]
-    # Each program has a copy of the samples, and a mesh of no more than as much again.
-    room = 0.8 * free_bytes() / (4 * size**3) / 1.5 - len(commands)
+    # Each program has a copy of the samples, and a mesh of at most 80 triangles to a column.
+    room = 0.9 * free_bytes() / (4 * size**3 + 80 * 20 * size**2) - len(commands)
     for name in list(peers)[max(0, int(room)):]:
         print(f"bench: {name} is left out at {size}^3: memory is short", file=sys.stderr)
         del peers[name]
@@ -234,8 +233,8 @@ def main():
     unknown = set(parts) - set(PARTS)
     if unknown:
         sys.exit(f"bench: --parts: unknown {', '.join(unknown)}: expected {', '.join(PARTS)}")
-    memory = pathlib.Path("/dev/shm")
-    volumes = tempfile.mkdtemp(prefix="mc-bench-", dir=memory if memory.is_dir() else None)
+    # Not in a file system in memory: a large field would take the room of a program.
+    volumes = tempfile.mkdtemp(prefix="mc-bench-", dir=args.build)
     try:
         bench = Bench(args.build, pathlib.Path(volumes), 5 if args.quick else args.rounds)
         results = measure(bench, args, parts)

@@ -16,9 +16,8 @@ NAMES = {"mc": "mc", "vtk kept": "VTK, heap kept", "vdb": "OpenVDB", "read": "re
 
 
 def milliseconds(ms):
-    """Three digits: 0.0831, 8.31, 831."""
-    digits = 2 if ms >= 1 else 4
-    return f"{ms:.0f}" if ms >= 100 else f"{ms:.1f}" if ms >= 10 else f"{ms:.{digits}f}"
+    """Three digits, or more: 0.0831, 8.30, 831, 1870."""
+    return f"{ms:.0f}" if ms >= 100 else f"{ms:#.3g}"
 
 
 def millions(n):
@@ -42,7 +41,8 @@ def text_head(machine):
 
 def text_row(row):
     ours = row["results"]["mc"]
-    text = (f"{row['volume']:10} {row['size']:4}^3 {row['threads']} threads, normals "
+    threads = "1 thread" if row["threads"] == 1 else f"{row['threads']} threads"
+    text = (f"{row['volume']:10} {row['size']:4}^3 {threads:9}, normals "
             f"{row['normals']:8} {millions(ours['faces']):>8} triangles  mc "
             f"{milliseconds(ours['ms']):>6} ms +-{100 * ours['spread_ms'] / ours['ms']:.1f} %")
     if "read" in row["results"]:

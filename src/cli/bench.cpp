@@ -69,6 +69,7 @@ void bench(const BenchPlan& plan) {
   show_text(to_text(bandwidths));
   constexpr std::array<std::int32_t, 6> kDemoCells{1, 10, 20, 30, 40, 50};
   std::vector<DemoResult> demo;
+  demo.reserve(kDemoCells.size());
   RoundLimits demo_limits = plan.limits;
   demo_limits.seconds /= static_cast<double>(kDemoCells.size());
   for (const std::int32_t n : kDemoCells) demo.push_back(time_demo(n, demo_limits));

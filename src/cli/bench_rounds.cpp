@@ -36,6 +36,7 @@ double median_of(std::vector<double> values) {
 Timing summary(const std::vector<double>& seconds) {
   const double median = median_of(seconds);
   std::vector<double> deviations;
+  deviations.reserve(seconds.size());
   for (const double s : seconds) deviations.push_back(std::abs(s - median));
   return {median, *std::min_element(seconds.begin(), seconds.end()), median_of(deviations),
           seconds.size()};
@@ -59,6 +60,7 @@ std::vector<Timing> time_rounds(std::span<const TimedBody> bodies, const RoundLi
     }
   }
   std::vector<Timing> timings;
+  timings.reserve(bodies.size());
   for (const auto& times : seconds) timings.push_back(summary(times));
   return timings;
 }
