@@ -12,26 +12,6 @@
 
 namespace mc::extraction {
 
-namespace {
-
-/// Crossed edges of the faces between two neighbouring rows, an edge counted for each face it is
-/// in: each face has none, two or four, and half as many sides of triangles.
-std::uint64_t face_crossings(const std::uint64_t* a, const std::uint64_t* b, std::size_t n_samples,
-                             std::size_t n_words) {
-  const auto ones = [](std::uint64_t x) { return static_cast<std::uint64_t>(std::popcount(x)); };
-  std::uint64_t n = 0;
-  for (std::size_t w = 0; w < n_words; ++w) {
-    const std::uint64_t mask = cell_mask(n_samples, w);
-    const std::uint64_t a_next = next_samples(a, w, n_words);
-    const std::uint64_t b_next = next_samples(b, w, n_words);
-    n += ones((a[w] ^ a_next) & mask) + ones((b[w] ^ b_next) & mask) + ones((a[w] ^ b[w]) & mask) +
-         ones((a_next ^ b_next) & mask);
-  }
-  return n;
-}
-
-}  // namespace
-
 DenseExtractor::DenseExtractor(const Volume& volume, const Affine& to_world,
                                const ExtractOptions& options)
     : type_(volume.type),
@@ -57,11 +37,17 @@ DenseExtractor::DenseExtractor(const Volume& volume, const Affine& to_world,
   n_planes_ = static_cast<std::int32_t>(n_planes);
   n_words_ = padded_words(row_samples_);
   for (std::size_t w = 0; w < n_words_; ++w) cells_.push_back(cell_mask(row_samples_, w));
+  const std::size_t n_column_words = (n_rows_ + 63) / 64;
   for (Plane* plane : {&lower_, &upper_}) {
     plane->words.resize(n_words_ * n_rows_ + 1);
     std::fill(plane->words.begin(), plane->words.end(), 0);
     plane->i_start.resize(n_rows_);
     plane->j_start.resize(n_rows_);
+    plane->first_column.resize(n_column_words + 1);
+    plane->last_column.resize(n_column_words + 1);
+  }
+  for (std::size_t w = 0; w < n_column_words; ++w) {
+    column_cells_.push_back(cell_mask(n_rows_, w));
   }
   k_start_.resize(n_rows_);
 }
@@ -84,7 +70,8 @@ std::pair<std::int32_t, std::int32_t> DenseExtractor::planes_for(std::int32_t l0
 
 std::uint64_t DenseExtractor::scratch_bytes() const {
   const std::size_t edges = list_room(bits(lower_)) + EdgeBatch<double>::kEnough;
-  return 2 * lower_.words.size() * sizeof(std::uint64_t) + 5 * n_rows_ * sizeof(std::uint32_t) +
+  // Two planes of its own and one that it shares.
+  return 3 * lower_.words.size() * sizeof(std::uint64_t) + 5 * n_rows_ * sizeof(std::uint32_t) +
          edges * EdgeBatch<double>::kBytesAnEdge;
 }
 
@@ -145,58 +132,90 @@ void DenseExtractor::classify(const Slab& slab, std::int32_t plane, Plane& out) 
   fill_row(n_rows_ - 1);
 }
 
-template <class R>
-EdgeList DenseExtractor::empty_list(EdgeBatch<R>& batch) const {
-  const std::size_t room = list_room(bits(lower_)) + EdgeBatch<R>::kEnough;
-  batch.reserve(room, options_.normals == Normals::gradient);
-  return {box_.lo[0] - pad(), batch.i.data(), room, 0};
+/// Keeps the first and the last sample of each row as rows of bits.
+void DenseExtractor::take_columns(Plane& plane) const {
+  const std::size_t last = row_samples_ - 1;
+  for (std::size_t w = 0; 64 * w < n_rows_; ++w) {
+    std::uint64_t first_word = 0;
+    std::uint64_t last_word = 0;
+    const std::size_t end = std::min<std::size_t>(64, n_rows_ - 64 * w);
+    for (std::size_t b = 0; b < end; ++b) {
+      const std::uint64_t* row = plane.words.data() + (64 * w + b) * n_words_;
+      first_word |= (row[0] & 1U) << b;
+      last_word |= (row[last / 64] >> (last % 64) & 1U) << b;
+    }
+    plane.first_column[w] = first_word;
+    plane.last_column[w] = last_word;
+  }
 }
 
-/// Makes the vertices on the edges of plane p, in the order of their ids, and numbers them.
-template <class Writer, class Sampler, class R>
-std::uint32_t DenseExtractor::write_plane(Plane& plane, std::int32_t p, std::uint32_t next,
-                                          const Sampler& sampler, EdgeBatch<R>& batch,
-                                          Writer& writer) const {
-  const std::int32_t j_first = box_.lo[1] - pad();
-  const std::int32_t k = box_.lo[2] - pad() + p;
-  const PlaneIds first_ids = ids(plane);
-  EdgeList list = empty_list(batch);
-  for (std::size_t j = 0; j < n_rows_;) {
-    const std::uint32_t first_id = next;
-    const std::size_t end = list_plane(bits(plane), j, next, first_ids, list);
-    for (; j < end; ++j) {
-      const std::size_t i_edges = first_ids.i[j] - first_id;
-      const std::size_t j_edges = first_ids.j[j] - first_id;
-      const std::size_t row_end = j + 1 < end ? first_ids.i[j + 1] - first_id : list.n;
-      const std::int32_t row = j_first + static_cast<std::int32_t>(j);
-      gather_run(sampler, batch, i_edges, j_edges, row, k, 0, writer.wants_gradients());
-      gather_run(sampler, batch, j_edges, row_end, row, k, 1, writer.wants_gradients());
-    }
+/// Makes the bits of a plane. One that two slabs share may have been made for the other.
+void DenseExtractor::load(const Slab& slab, std::int32_t plane, bool is_shared, Plane& out) {
+  SharedPlanes* const shared = is_shared ? shared_ : nullptr;
+  if (shared == nullptr || !shared->take(plane, out.words)) {
+    classify(slab, plane, out);
+    if (shared != nullptr) shared->offer(plane, out.words);
+  }
+  take_columns(out);
+}
+
+/// What making the vertices of one slab takes.
+template <class T, bool Swap>
+struct DenseExtractor::VertexPass {
+  using R = Real<T>;
+  using Sampler = SlabSampler<T, Swap>;
+
+  VertexPass(DenseExtractor& e, const Slab& slab, MeshChunk& chunk, Bounds& bounds)
+      : rules(e.options_, e.to_world_, e.threshold_),
+        sampler(slab, e.box_),
+        vertices(rules, sampler),
+        batch(std::get<EdgeBatch<R>>(e.batches_)),
+        writer(rules, sampler, e.options_.precision, batch, chunk, bounds),
+        gatherer(slab, sampler, vertices, writer.wants_gradients()) {
+    const std::size_t room = list_room(e.bits(e.lower_)) + EdgeBatch<R>::kEnough;
+    batch.reserve(room, writer.wants_gradients());
+    list.first = {e.box_.lo[0] - e.pad(), e.box_.lo[1] - e.pad(), 0};
+    list.i = batch.i.data();
+    list.j = batch.j.data();
+    list.axis = batch.axis.data();
+    list.room = room;
+  }
+
+  /// Makes the vertices of the edges that were listed, which start in plane k.
+  void make(std::int32_t k) {
     batch.n = list.n;
+    if (batch.n == 0) return;
+    std::fill_n(batch.k.begin(), batch.n, k);
+    gatherer.gather(batch, k, rules.capped);
     writer.flush();
+  }
+
+  VertexRules<T> rules;
+  Sampler sampler;
+  EdgeVertices<T, Sampler> vertices;
+  EdgeBatch<R>& batch;
+  VertexWriter<T, Sampler> writer;
+  SlabGatherer<T, Swap> gatherer;
+  EdgeList list;
+};
+
+/// Makes the vertices on the edges of plane p, in the order of their ids, and numbers them.
+template <class Pass>
+std::uint32_t DenseExtractor::write_plane(Plane& plane, std::int32_t p, std::uint32_t next,
+                                          Pass& pass) const {
+  for (std::size_t j = 0; j < n_rows_;) {
+    j = list_plane(bits(plane), j, next, ids(plane), pass.list);
+    pass.make(box_.lo[2] - pad() + p);
   }
   return next;
 }
 
 /// The same for the edges between planes p and p + 1.
-template <class Writer, class Sampler, class R>
-std::uint32_t DenseExtractor::write_between(std::int32_t p, std::uint32_t next,
-                                            const Sampler& sampler, EdgeBatch<R>& batch,
-                                            Writer& writer) {
-  const std::int32_t j_first = box_.lo[1] - pad();
-  const std::int32_t k = box_.lo[2] - pad() + p;
-  EdgeList list = empty_list(batch);
+template <class Pass>
+std::uint32_t DenseExtractor::write_between(std::int32_t p, std::uint32_t next, Pass& pass) {
   for (std::size_t j = 0; j < n_rows_;) {
-    const std::uint32_t first_id = next;
-    const std::size_t end =
-        list_between(bits(lower_), bits(upper_), j, next, k_start_.data(), list);
-    for (; j < end; ++j) {
-      const std::size_t row_end = j + 1 < end ? k_start_[j + 1] - first_id : list.n;
-      gather_run(sampler, batch, k_start_[j] - first_id, row_end,
-                 j_first + static_cast<std::int32_t>(j), k, 2, writer.wants_gradients());
-    }
-    batch.n = list.n;
-    writer.flush();
+    j = list_between(bits(lower_), bits(upper_), j, next, k_start_.data(), pass.list);
+    pass.make(box_.lo[2] - pad() + p);
   }
   return next;
 }
@@ -219,40 +238,36 @@ void DenseExtractor::emit_layer(MeshChunk& chunk) {
   }
 }
 
+/// Sides of triangles in the volume's faces that the layer touches.
 std::uint64_t DenseExtractor::boundary_edges(std::int32_t layer) const {
   if (capped_) {
     return 0;
   }
-  std::uint64_t crossings = 0;
-  const auto bit = [](const std::uint64_t* row, std::size_t i) {
-    return static_cast<unsigned>((row[i / 64] >> (i % 64)) & 1U);
-  };
   const BitPlane lower = bits(lower_);
   const BitPlane upper = bits(upper_);
-  for (std::size_t j = 0; j + 1 < n_rows_; ++j) {
-    for (const std::size_t i : {std::size_t{0}, row_samples_ - 1}) {
-      const unsigned a = bit(lower.row(j), i);
-      const unsigned b = bit(lower.row(j + 1), i);
-      const unsigned c = bit(upper.row(j), i);
-      const unsigned d = bit(upper.row(j + 1), i);
-      crossings += (a ^ b) + (c ^ d) + (a ^ c) + (b ^ d);
-    }
-  }
-  for (const std::size_t j : {std::size_t{0}, n_rows_ - 1}) {
-    crossings += face_crossings(lower.row(j), upper.row(j), row_samples_, n_words_);
-  }
+  const std::size_t column_words = (n_rows_ + 63) / 64;
+  const std::size_t row_words = (row_samples_ + 63) / 64;
   const auto add_plane = [&](const BitPlane& plane) {
+    std::uint64_t n = 0;
     for (std::size_t j = 0; j + 1 < n_rows_; ++j) {
-      crossings += face_crossings(plane.row(j), plane.row(j + 1), row_samples_, n_words_);
+      n += count_face_sides(plane.row(j), plane.row(j + 1), cells_.data(), row_words);
     }
+    return n;
   };
+  std::uint64_t n = count_face_sides(lower_.first_column.data(), upper_.first_column.data(),
+                                     column_cells_.data(), column_words) +
+                    count_face_sides(lower_.last_column.data(), upper_.last_column.data(),
+                                     column_cells_.data(), column_words);
+  for (const std::size_t j : {std::size_t{0}, n_rows_ - 1}) {
+    n += count_face_sides(lower.row(j), upper.row(j), cells_.data(), row_words);
+  }
   if (layer == 0) {
-    add_plane(lower);
+    n += add_plane(lower);
   }
   if (layer + 1 == n_layers()) {
-    add_plane(upper);
+    n += add_plane(upper);
   }
-  return crossings / 2;
+  return n;
 }
 
 template <class Vertices>
@@ -284,23 +299,19 @@ LayerSum DenseExtractor::measure(std::int32_t p, const Vertices& vertices) const
 template <class T, bool Swap>
 void DenseExtractor::extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1,
                                    MeshChunk& chunk, TaskTotals& totals) {
-  using Sampler = SlabSampler<T, Swap>;
-  const Sampler sampler(slab, box_);
-  const VertexRules<T> rules(options_, to_world_, threshold_);
-  auto& batch = std::get<EdgeBatch<Real<T>>>(batches_);
-  VertexWriter<T, Sampler> writer(rules, sampler, options_.precision, batch, chunk, totals.bounds);
-
-  classify(slab, l0, lower_);
-  std::uint32_t next = write_plane(lower_, l0, 0, sampler, batch, writer);
+  VertexPass<T, Swap> pass(*this, slab, chunk, totals.bounds);
+  load(slab, l0, true, lower_);
+  std::uint32_t next = write_plane(lower_, l0, 0, pass);
   for (std::int32_t l = l0; l < l1; ++l) {
-    classify(slab, l + 1, upper_);
-    next = write_between(l, next, sampler, batch, writer);
-    next = l + 1 < l1 || l1 == n_layers() ? write_plane(upper_, l + 1, next, sampler, batch, writer)
-                                          : number_plane(bits(upper_), next, ids(upper_));
+    load(slab, l + 1, l + 1 == l1, upper_);
+    next = write_between(l, next, pass);
+    const bool owned = l + 1 < l1 || l1 == n_layers();
+    next = owned ? write_plane(upper_, l + 1, next, pass)
+                 : number_plane(bits(upper_), next, ids(upper_));
     emit_layer(chunk);
     totals.n_boundary_edges += boundary_edges(l);
     if (options_.measure) {
-      totals.layers.push_back(measure(l, EdgeVertices<T, Sampler>(rules, sampler)));
+      totals.layers.push_back(measure(l, pass.vertices));
     }
     std::swap(lower_, upper_);
   }
@@ -324,10 +335,10 @@ void DenseExtractor::extract(const Slab& slab, std::int32_t l0, std::int32_t l1,
 
 void DenseExtractor::count(const Slab& slab, std::int32_t l0, std::int32_t l1, TaskTotals& totals) {
   totals.clear();
-  classify(slab, l0, lower_);
+  load(slab, l0, true, lower_);
   totals.n_vertices = number_plane(bits(lower_), 0, ids(lower_));
   for (std::int32_t l = l0; l < l1; ++l) {
-    classify(slab, l + 1, upper_);
+    load(slab, l + 1, l + 1 == l1, upper_);
     totals.n_vertices += number_between(bits(lower_), bits(upper_), 0, k_start_.data());
     if (l + 1 < l1 || l1 == n_layers()) {
       totals.n_vertices += number_plane(bits(upper_), 0, ids(upper_));

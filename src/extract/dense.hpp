@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "extract/row_kernels.hpp"
+#include "extract/shared_planes.hpp"
 #include "extract/surface_sums.hpp"
 #include "extract/vertex_writer.hpp"
 #include "mc/extract.hpp"
@@ -40,6 +41,9 @@ class DenseExtractor {
   /// Bytes of scratch.
   [[nodiscard]] std::uint64_t scratch_bytes() const;
 
+  /// Lets slabs of one run classify the planes between them once. `planes` must outlive the run.
+  void share(SharedPlanes* planes) { shared_ = planes; }
+
   /// Makes the surface of layers [l0, l1). `slab` holds at least the planes of planes_for().
   /// Indices in `chunk` count from the slab's first vertex.
   void extract(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
@@ -52,6 +56,7 @@ class DenseExtractor {
   struct Plane {
     Buffer<std::uint64_t> words;
     std::vector<std::uint32_t> i_start, j_start;
+    std::vector<std::uint64_t> first_column, last_column;  ///< the rows' ends, as rows
   };
 
   [[nodiscard]] BitPlane bits(const Plane& plane) const;
@@ -59,20 +64,20 @@ class DenseExtractor {
   [[nodiscard]] CellLayer layer();
   [[nodiscard]] std::int32_t pad() const { return capped_ ? 1 : 0; }
   void classify(const Slab& slab, std::int32_t plane, Plane& out) const;
+  void take_columns(Plane& plane) const;
+  void load(const Slab& slab, std::int32_t plane, bool is_shared, Plane& out);
   void pad_row(std::uint64_t* row) const;
   void emit_layer(MeshChunk& chunk);
   [[nodiscard]] std::uint64_t boundary_edges(std::int32_t layer) const;
   template <class T, bool Swap>
   void extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
                      TaskTotals& totals);
-  template <class R>
-  [[nodiscard]] EdgeList empty_list(EdgeBatch<R>& batch) const;
-  template <class Writer, class Sampler, class R>
-  std::uint32_t write_plane(Plane& plane, std::int32_t p, std::uint32_t next,
-                            const Sampler& sampler, EdgeBatch<R>& batch, Writer& writer) const;
-  template <class Writer, class Sampler, class R>
-  std::uint32_t write_between(std::int32_t p, std::uint32_t next, const Sampler& sampler,
-                              EdgeBatch<R>& batch, Writer& writer);
+  template <class T, bool Swap>
+  struct VertexPass;
+  template <class Pass>
+  std::uint32_t write_plane(Plane& plane, std::int32_t p, std::uint32_t next, Pass& pass) const;
+  template <class Pass>
+  std::uint32_t write_between(std::int32_t p, std::uint32_t next, Pass& pass);
   template <class Vertices>
   [[nodiscard]] LayerSum measure(std::int32_t p, const Vertices& vertices) const;
 
@@ -87,7 +92,9 @@ class DenseExtractor {
   bool above_outside_;  ///< the constant layer of a closed border
   std::size_t row_samples_, n_rows_, n_words_;
   std::int32_t n_planes_;
-  Buffer<std::uint64_t> cells_;  ///< ones for the cells of a row
+  Buffer<std::uint64_t> cells_;              ///< ones for the cells of a row
+  std::vector<std::uint64_t> column_cells_;  ///< and of a column
+  SharedPlanes* shared_ = nullptr;
   Plane lower_, upper_;
   std::vector<std::uint32_t> k_start_;
   std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "extract/bit_row.hpp"
+#include "mc/base.hpp"
 
 // Word arithmetic on sample bits: which edges are crossed, the ids of their vertices, triangles.
 // Compiled for every SIMD target and chosen at run time. A call handles many rows, so that the
@@ -37,11 +38,11 @@ std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const Plan
 std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
                              std::uint32_t* k_ids);
 
-/// Crossed edges of some rows: the place in its row of each one's lower sample, counted from
-/// `first_i`, in the order of their vertices.
+/// Crossed edges of some rows in the order of their vertices: lattice indices of the lower sample,
+/// and the axis along which the edge runs.
 struct EdgeList {
-  std::int32_t first_i = 0;
-  std::int32_t* i = nullptr;
+  Index3 first{};  ///< indices of the plane's first sample
+  std::int32_t *i = nullptr, *j = nullptr, *axis = nullptr;
   std::size_t room = 0;  ///< at least list_room(plane); more makes calls rarer
   std::size_t n = 0;
 };
@@ -71,5 +72,10 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
                            std::uint32_t* out);
 /// How many triangles the layer has.
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper);
+
+/// Sides of triangles in the faces of cells between two rows of samples: a face has two or four
+/// crossed edges, or none, and half as many sides. One word past the rows can be read.
+std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
+                               const std::uint64_t* cells, std::size_t n_words);
 
 }  // namespace mc::extraction

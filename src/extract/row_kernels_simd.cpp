@@ -25,6 +25,7 @@ HWY_EXPORT(list_plane);
 HWY_EXPORT(list_between);
 HWY_EXPORT(emit_triangles);
 HWY_EXPORT(count_triangles);
+HWY_EXPORT(count_face_sides);
 
 constexpr std::array<std::pair<std::string_view, std::int64_t>, 5> kTargets{
     {{"avx3_dl", HWY_AVX3_DL},
@@ -65,6 +66,11 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
 
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
   return HWY_DYNAMIC_DISPATCH(count_triangles)(lower, upper);
+}
+
+std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
+                               const std::uint64_t* cells, std::size_t n_words) {
+  return HWY_DYNAMIC_DISPATCH(count_face_sides)(a, b, cells, n_words);
 }
 
 bool set_simd_target(std::string_view name) {
