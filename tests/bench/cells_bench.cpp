@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "extract/case_table.hpp"
@@ -50,7 +52,9 @@ struct Layer {
   Bits lower{kSide / 3}, upper{kSide / 3 + 1};
   std::vector<std::uint32_t> k_ids = std::vector<std::uint32_t>(kRows);
   std::vector<std::uint32_t> plain_lower, plain_upper, plain_k;  ///< ids of edges, by sample
-  std::vector<std::int32_t> listed = std::vector<std::int32_t>(3 * kSide * kRows);
+  /// Edges: i, j and axis.
+  std::array<std::vector<std::int32_t>, 3> listed;
+  std::array<std::vector<std::int32_t>, 3> plain_list;
   std::vector<std::uint32_t> triangles, wanted;
   std::uint32_t n_plane = 0, n_listed = 0;
   std::size_t n_ids = 0;
@@ -70,6 +74,8 @@ struct Layer {
     for (std::size_t j = 0; j + 1 < kRows; ++j) {
       for (std::size_t i = 0; i + 1 < kSide; ++i) add_cell(i, j);
     }
+    list_plainly();
+    for (auto& column : listed) column.resize(3 * kSide * kRows);
     triangles.resize(15 * kSide * kRows + extraction::kEmitSlack);
     std::uint32_t id = extraction::number_plane(lower.view(), 0, lower.ids());
     id = extraction::number_between(lower.view(), upper.view(), id, k_ids.data());
@@ -90,6 +96,22 @@ struct Layer {
       }
     }
     return ids;
+  }
+
+  void list_plainly() {
+    const auto add = [this](std::size_t i, std::size_t j, int axis) {
+      plain_list[0].push_back(static_cast<std::int32_t>(i));
+      plain_list[1].push_back(static_cast<std::int32_t>(j));
+      plain_list[2].push_back(axis);
+    };
+    for (std::size_t j = 0; j < kRows; ++j) {
+      for (std::size_t i = 0; i + 1 < kSide; ++i) {
+        if (lower.at(i, j) != lower.at(i + 1, j)) add(i, j, 0);
+      }
+      for (std::size_t i = 0; i < kSide && j + 1 < kRows; ++i) {
+        if (lower.at(i, j) != lower.at(i, j + 1)) add(i, j, 1);
+      }
+    }
   }
 
   void add_cell(std::size_t i, std::size_t j) {
@@ -113,7 +135,7 @@ struct Layer {
   void number_lower() { n_plane = extraction::number_plane(lower.view(), 0, lower.ids()); }
   void list_lower() {
     n_listed = 0;
-    EdgeList list{0, listed.data(), listed.size(), 0};
+    EdgeList list{{}, listed[0].data(), listed[1].data(), listed[2].data(), listed[0].size(), 0};
     extraction::list_plane(lower.view(), 0, n_listed, lower.ids(), list);
   }
   void count() { n_counted = extraction::count_triangles(lower.view(), upper.view()); }
@@ -130,18 +152,10 @@ struct Layer {
     return n_plane == n_wanted_plane;
   }
   [[nodiscard]] bool listed_right() const {
-    std::size_t n = 0;
-    for (std::size_t j = 0; j < kRows; ++j) {
-      for (std::size_t i = 0; i + 1 < kSide; ++i) {
-        if (lower.at(i, j) != lower.at(i + 1, j) && listed[n++] != static_cast<int>(i))
-          return false;
-      }
-      for (std::size_t i = 0; i < kSide && j + 1 < kRows; ++i) {
-        if (lower.at(i, j) != lower.at(i, j + 1) && listed[n++] != static_cast<int>(i))
-          return false;
-      }
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (!std::equal(plain_list[a].begin(), plain_list[a].end(), listed[a].begin())) return false;
     }
-    return n == n_listed;
+    return n_listed == plain_list[0].size();
   }
   [[nodiscard]] bool emitted_right() const {
     return n_ids == wanted.size() && std::equal(wanted.begin(), wanted.end(), triangles.begin());
