@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # shellcheck shell=bash disable=SC2034 # the lists are for those who source this
 # The one list of the distribution's packages that mc needs, and how to install what is missing of
-# them. Sourced by scripts/mc, scripts/test, scripts/check and scripts/pictures; known to hold for
-# Debian 12.
+# them. Sourced by scripts/mc, scripts/test, scripts/check, scripts/bench and scripts/pictures; known
+# to hold for Debian 12.
 #
 # An entry is PACKAGE, or PACKAGE:COMMAND where any COMMAND on the PATH will do as well (a compiler
 # or an npm that came from elsewhere).
@@ -23,6 +23,11 @@ mc_test_packages=(
 
 mc_check_packages=(
   clang:clang++ clang-tidy-14 libclang-rt-14-dev pandoc:pandoc shellcheck:shellcheck
+)
+
+mc_bench_packages=(
+  python3:python3 libbenchmark-dev
+  libvtk9-dev # a peer, 0.5 GB with what it needs; the other, OpenVDB, is there already
 )
 
 mc_picture_packages=(python3-vtk9 xvfb:xvfb-run)

@@ -68,12 +68,12 @@ enum class NodeId : std::uint32_t {};
 
 struct Node {
   NodeType type = NodeType::constant;
-  std::vector<NodeId> inputs;      ///< in the order that NodeType names them
+  std::vector<NodeId> inputs{};    ///< in the order that NodeType names them
   std::array<float, 6> numbers{};  ///< finite; places as NodeType says
   std::uint32_t seed = 0;          ///< generators
   std::uint32_t octaves = 1;       ///< fbm: 1 to 32
   std::uint8_t axis = 1;           ///< torus: 0, 1, 2: the axis around which the ring runs
-  std::optional<Dims> dims;        ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
+  std::optional<Dims> dims{};      ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
 };
 
 struct GraphSettings {

@@ -137,6 +137,21 @@ std::vector<Option> options_of(CheckArgs& a) {
   return all;
 }
 
+std::vector<Option> options_of(BenchArgs& a) {
+  std::vector<Option> all{
+      {"--json", "", "all figures as one JSON object", true, &a.json},
+      {"--fields", "LIST", "of sphere, terrain, gyroid and noise (default: all)", true, &a.fields},
+      {"--size", "N", "samples along each axis of the fields (default: 256)", true, &a.size},
+      {"--type", "TYPE", "u8, i8, u16, i16, u32, i32, f16, f32 (default) or f64", true, &a.type},
+      {"--normals", "HOW", "none (default), gradient or face", true, &a.normals},
+      {"--threads", "N[,N...]", "numbers of threads to use (default: one, and all cores)", true,
+       &a.threads},
+      {"--seconds", "S", "go on for so long with each table's line (default: 1)", true, &a.seconds},
+  };
+  append(all, talk_options(a.common));
+  return all;
+}
+
 std::vector<Option> options_of(TopArgs& a) {
   std::vector<Option> all{
       {"--version", "", "show the version; with -v, what was built in", true, &a.version}};

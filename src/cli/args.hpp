@@ -62,6 +62,12 @@ struct CheckArgs {
   bool json = false, closed = false;
 };
 
+struct BenchArgs {
+  CommonArgs common;
+  Text fields, size, type, normals, threads, seconds;
+  bool json = false;
+};
+
 /// Options before any command.
 struct TopArgs {
   CommonArgs common;
@@ -83,6 +89,7 @@ std::vector<Option> options_of(ExtractArgs& args);
 std::vector<Option> options_of(SampleArgs& args);
 std::vector<Option> options_of(InfoArgs& args);
 std::vector<Option> options_of(CheckArgs& args);
+std::vector<Option> options_of(BenchArgs& args);
 std::vector<Option> options_of(TopArgs& args);
 
 }  // namespace mc::cli

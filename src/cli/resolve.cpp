@@ -132,9 +132,7 @@ void resolve_normals(const ExtractArgs& args, ExtractPlan& plan) {
   const bool holds_normals = plan.format != "stl";
   plan.extract.normals = holds_normals ? Normals::gradient : Normals::none;
   if (!args.normals) return;
-  static constexpr std::array<std::pair<std::string_view, Normals>, 3> kHow{
-      {{"gradient", Normals::gradient}, {"face", Normals::face}, {"none", Normals::none}}};
-  plan.extract.normals = parse_choice("--normals", *args.normals, kHow);
+  plan.extract.normals = parse_normals(*args.normals);
   if (!holds_normals && plan.extract.normals != Normals::none) {
     refuse("--normals", "stl holds no vertex normals, only those of its facets",
            "choose ply, obj, glb or gltf");
@@ -237,6 +235,12 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
 }
 
 }  // namespace
+
+Normals parse_normals(const std::string& text) {
+  static constexpr std::array<std::pair<std::string_view, Normals>, 3> kHow{
+      {{"gradient", Normals::gradient}, {"face", Normals::face}, {"none", Normals::none}}};
+  return parse_choice("--normals", text, kHow);
+}
 
 ExtractPlan resolve(const ExtractArgs& args) {
   ExtractPlan plan;

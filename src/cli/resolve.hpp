@@ -80,6 +80,9 @@ struct SamplePlan {
 /// All Errors of these are of kind usage.
 CommonOptions resolve_common(const CommonArgs& args);
 SourceOptions resolve_source(const SourceArgs& args);
+/// The values of --type and --normals.
+SampleType parse_type(const std::string& text);
+Normals parse_normals(const std::string& text);
 ExtractPlan resolve(const ExtractArgs& args);
 SamplePlan resolve(const SampleArgs& args);
 

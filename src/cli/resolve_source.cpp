@@ -15,21 +15,6 @@ namespace {
 
 constexpr std::int64_t kMostSamplesAlongAxis = std::numeric_limits<std::int32_t>::max();
 
-SampleType parse_type(const std::string& text) {
-  // i64 exists inside (VDB's int64 grids) but is no raw type of the command line.
-  static constexpr std::array<std::pair<std::string_view, SampleType>, 9> kTypes{
-      {{"u8", SampleType::u8},
-       {"i8", SampleType::i8},
-       {"u16", SampleType::u16},
-       {"i16", SampleType::i16},
-       {"u32", SampleType::u32},
-       {"i32", SampleType::i32},
-       {"f16", SampleType::f16},
-       {"f32", SampleType::f32},
-       {"f64", SampleType::f64}}};
-  return parse_choice("--type", text, kTypes);
-}
-
 std::vector<std::int64_t> parse_dims(const std::string& text) {
   const auto parts = split(text, ',');
   if (parts.size() != 2 && parts.size() != 3) {
@@ -97,6 +82,21 @@ void check_raw_options(const SourceArgs& args) {
 }
 
 }  // namespace
+
+SampleType parse_type(const std::string& text) {
+  // i64 exists inside (VDB's int64 grids) but is no raw type of the command line.
+  static constexpr std::array<std::pair<std::string_view, SampleType>, 9> kTypes{
+      {{"u8", SampleType::u8},
+       {"i8", SampleType::i8},
+       {"u16", SampleType::u16},
+       {"i16", SampleType::i16},
+       {"u32", SampleType::u32},
+       {"i32", SampleType::i32},
+       {"f16", SampleType::f16},
+       {"f32", SampleType::f32},
+       {"f64", SampleType::f64}}};
+  return parse_choice("--type", text, kTypes);
+}
 
 SourceOptions resolve_source(const SourceArgs& args) {
   SourceOptions options;

@@ -25,10 +25,11 @@ namespace {
 
 using Command = int (*)(Invocation&, std::vector<std::string>);
 
-constexpr std::array<std::pair<std::string_view, Command>, 5> kCommands{{{"extract", run_extract},
+constexpr std::array<std::pair<std::string_view, Command>, 6> kCommands{{{"extract", run_extract},
                                                                          {"sample", run_sample},
                                                                          {"info", run_info},
                                                                          {"check", run_check},
+                                                                         {"bench", run_bench},
                                                                          {"help", run_help}}};
 
 void obey_simd_environment() {
@@ -50,7 +51,8 @@ int run_top(const std::vector<std::string>& words) {
   } else if (args.version) {
     print_out(version_text(args.common.verbose > 0));
   } else {
-    throw Error(ErrorKind::usage, {}, "no command: expected extract, sample, info, check or help",
+    throw Error(ErrorKind::usage, {},
+                "no command: expected extract, sample, info, check, bench or help",
                 "see mc --help");
   }
   return 0;

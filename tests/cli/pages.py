@@ -16,7 +16,7 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 COMMANDS = {"mc": "", "mc-extract": "extract", "mc-sample": "sample", "mc-info": "info",
-            "mc-check": "check"}
+            "mc-check": "check", "mc-bench": "bench"}
 
 
 def options_in_page(text):

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cli/args.hpp"
+#include "cli/bench_rounds.hpp"
+#include "mc/extract.hpp"
+#include "mc/field.hpp"
+
+namespace mc::cli {
+
+/// What `mc bench` was asked for.
+struct BenchPlan {
+  std::vector<std::string> fields;
+  std::int32_t n_samples = 256;  ///< along each axis
+  SampleType type = SampleType::f32;
+  Normals normals = Normals::none;
+  std::vector<int> threads;  ///< each at least 1
+  RoundLimits limits;
+  bool json = false;
+};
+
+/// Errors   usage.
+BenchPlan resolve(const BenchArgs& args);
+
+/// Bytes that the plan's largest field needs, with its mesh, while it is timed.
+double bench_bytes(const BenchPlan& plan);
+
+/// Refuses a plan that this machine's free memory cannot hold. Errors   limit.
+void check_bench_memory(const BenchPlan& plan);
+
+}  // namespace mc::cli
