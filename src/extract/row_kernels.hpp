@@ -49,13 +49,14 @@ struct EdgeList {
 /// Room that listing needs: two edges a sample of one row, and what is written past the end.
 inline std::size_t list_room(const BitPlane& plane) { return 2 * plane.n_samples + 8; }
 
-/// Numbers and lists i- and j-edges of rows from j on while there is room for one more; `next` is
-/// the first id and becomes the id after the last. Returns the row after the last.
-std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+/// Numbers and lists i- and j-edges of rows [j, j_end) while there is room for one more row; `next`
+/// is the first id and becomes the id after the last. Returns the row after the last.
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& out);
 /// The same for the k-edges between two planes.
 std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
-                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out);
+                         std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
+                         EdgeList& out);
 
 /// One layer of cells: the planes below and above it, and the first ids of their rows.
 struct CellLayer {

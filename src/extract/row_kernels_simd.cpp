@@ -49,14 +49,15 @@ std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::
   return HWY_DYNAMIC_DISPATCH(number_between)(lower, upper, next, k_ids);
 }
 
-std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& out) {
-  return HWY_DYNAMIC_DISPATCH(list_plane)(plane, j, next, ids, out);
+  return HWY_DYNAMIC_DISPATCH(list_plane)(plane, j, j_end, next, ids, out);
 }
 
 std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
-                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out) {
-  return HWY_DYNAMIC_DISPATCH(list_between)(lower, upper, j, next, k_ids, out);
+                         std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
+                         EdgeList& out) {
+  return HWY_DYNAMIC_DISPATCH(list_between)(lower, upper, j, j_end, next, k_ids, out);
 }
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,

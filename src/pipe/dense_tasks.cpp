@@ -39,7 +39,7 @@ class DenseTasks final : public TaskList {
 
   void set_slots(std::size_t n_slots) override {
     slots_.assign(n_slots, prototype_);
-    shared_.reset(n_slots + 1);
+    shared_.reset(2 * (n_slots + 1));
     for (Slot& slot : slots_) slot.extractor.share(&shared_);
   }
   [[nodiscard]] std::size_t n_tasks() const override {

@@ -136,7 +136,7 @@ struct Layer {
   void list_lower() {
     n_listed = 0;
     EdgeList list{{}, listed[0].data(), listed[1].data(), listed[2].data(), listed[0].size(), 0};
-    extraction::list_plane(lower.view(), 0, n_listed, lower.ids(), list);
+    extraction::list_plane(lower.view(), 0, kRows, n_listed, lower.ids(), list);
   }
   void count() { n_counted = extraction::count_triangles(lower.view(), upper.view()); }
   void emit() {
