@@ -94,7 +94,7 @@ def main():
     parser.add_argument("--folder", default="/dev/shm", help="where files are made")
     args = parser.parse_args()
     mc = str(args.build / "mc")
-    bench = str(args.build / "tests/mc_vdb_bench")
+    bench = str(args.build / "tests/bench/mc_vdb_bench")
     if not os.path.exists(bench):
         sys.exit("bench_vdb.py: no mc_vdb_bench: configure with -DMC_BENCH=ON")
     print(f"{machine()}\n")

@@ -39,10 +39,15 @@ const char* normals_name(Normals normals) {
   __builtin_unreachable();
 }
 
-/// Time with three digits: "83.1 ms", "1.26 us".
+/// Three digits, or all before the point: "4.77", "83.1", "1870".
+std::string three_digits(double value) {
+  const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
 std::string time_text(double seconds) {
-  if (seconds < 1e-3) return fmt::format("{:#.3g} us", seconds * 1e6);
-  return fmt::format("{:#.4g} ms", seconds * 1e3);
+  const bool small = seconds < 0.9995e-3;
+  return three_digits(seconds * (small ? 1e6 : 1e3)) + (small ? " us" : " ms");
 }
 
 std::string spread_text(const Timing& t) {
@@ -132,9 +137,9 @@ std::string field_head_text() {
 
 std::string to_text(const FieldResult& r) {
   const double seconds = r.extract.median;
-  return fmt::format("  {:8}{:>8}{:>11}{:>11}{:>9}{:>8.2f}{:>12.0f}{:>9.1f}{:>6.2f}\n", r.name,
+  return fmt::format("  {:8}{:>8}{:>11}{:>11}{:>9} {:>7}{:>12.0f}{:>9.1f}{:>6.2f}\n", r.name,
                      r.threads, r.n_triangles, time_text(seconds), spread_text(r.extract),
-                     r.times_read(), static_cast<double>(r.n_samples) / seconds / 1e6,
+                     three_digits(r.times_read()), static_cast<double>(r.n_samples) / seconds / 1e6,
                      static_cast<double>(r.n_triangles) / seconds / 1e6, r.bandwidth_share());
 }
 

@@ -131,7 +131,7 @@ BenchSurface::BenchSurface(const BenchVolume& volume, Normals normals)
 
 void BenchSurface::extract() {
   field::visit_type(volume_.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
-    mesh_ = mc::extract(view_of<T>(volume_), options_, to_world_);
+    extractor_.extract(view_of<T>(volume_), options_, to_world_, mesh_);
   });
 }
 

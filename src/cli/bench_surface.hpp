@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cli/bench_field.hpp"
+#include "mc/extract.hpp"
 #include "mc/mesh.hpp"
 
 // The library call that benchmarks time, and the proof that its result is right.
@@ -26,6 +27,7 @@ class BenchSurface {
   const BenchVolume& volume_;
   ExtractOptions options_;
   Affine to_world_;
+  Extractor extractor_;
   Mesh mesh_;
 };
 

@@ -34,7 +34,7 @@ struct Plane {
     if constexpr (std::is_same_v<T, Half>) return to_half(static_cast<float>(v));
     if constexpr (std::is_floating_point_v<T>) return static_cast<T>(v);
     if constexpr (std::is_integral_v<T>) {
-      const double top = static_cast<double>(std::numeric_limits<T>::max() / 2);
+      const auto top = static_cast<double>(std::numeric_limits<T>::max() / 2);
       return static_cast<T>(std::is_signed_v<T> ? v * top : top + v * top);
     }
   }
