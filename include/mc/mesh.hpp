@@ -75,6 +75,7 @@ struct MeshObject {
 struct MeshNeeds {
   Precision precision = Precision::f32;  ///< of positions
   bool relative_origin = false;          ///< positions come relative to MeshObject::origin
+  std::uint32_t formatted = 1;           ///< bytes it makes of a byte of chunk, about
 };
 
 /// The port by which meshes leave. Calls: set_slots, (begin_object, chunks, end_object)..., finish.

@@ -13,13 +13,21 @@
 
 namespace mc {
 
+/// Whether exact counts come before the mesh, at the price of one more read of the scalars.
+enum class CountFirst : std::uint8_t {
+  no,
+  yes,
+  if_large,  ///< where a sixteenth of the slabs says that a sink would rather not spool the faces
+};
+
 struct RunOptions {
   ExtractOptions extract;
   std::optional<Affine> to_world;  ///< instead of the volume's own
   MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
   std::uint64_t memory_bytes = 1ULL << 30;  ///< the run's own buffers stay within it
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
-  bool count_first = false;  ///< one more read of the scalars, then exact counts for the sink
+  CountFirst count_first = CountFirst::no;
+  std::uint32_t formatted = 0;  ///< MeshNeeds::formatted of the sink
 };
 
 /// What a run of these options over this volume will hold at most, in bytes, without mapped input.

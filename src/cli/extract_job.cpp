@@ -33,15 +33,11 @@ std::uint64_t sample_bytes(const VolumeReader& reader) {
   return n;
 }
 
-/// Whether to count before making: where counting costs nothing, or one cheap read and the mesh
-/// might be more than a format can hold. A mesh has at most 132 bytes a sample, and 4 GiB is the
-/// least limit.
-bool worth_counting(const VolumeReader& reader) {
-  constexpr std::uint64_t kBytesPerSample = 3 * 24 + 5 * 12;
-  if (std::holds_alternative<std::unique_ptr<LeafReader>>(reader)) return true;
-  const SlabReader& dense = *std::get<std::unique_ptr<SlabReader>>(reader);
-  const std::uint64_t n_samples = sample_bytes(reader) / sample_size(dense.volume().type);
-  return dense.rereads_cheaply() && n_samples > (std::uint64_t{1} << 32U) / kBytesPerSample;
+/// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
+CountFirst counting_of(const VolumeReader& reader) {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  if (dense == nullptr) return CountFirst::yes;
+  return (*dense)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
 }
 
 /// What one job knows by and by.
@@ -198,7 +194,8 @@ RunOptions Extraction::run_options(const Iso& iso) const {
   options.object.precision = needs_.precision;
   options.object.origin = options.extract.origin;
   options.memory_bytes = plan_.memory_bytes;
-  options.count_first = worth_counting(reader());
+  options.count_first = counting_of(reader());
+  options.formatted = needs_.formatted;
   options.to_world = placement_.to_world;
   return options;
 }

@@ -67,20 +67,22 @@ struct Drive::Work {
   bool begun = false;
 
   void count(bool allow_empty);
+  [[nodiscard]] bool is_large();
+  [[nodiscard]] MeshTotals counts(std::size_t first, std::size_t stride);
   void extract();
-  void begin_stage(std::string_view name) const;
+  [[nodiscard]] std::uint64_t n_samples() const;
   void look_at_stop() const;
   void begin_object_once();
   void number(std::size_t slot);
   [[nodiscard]] bool has_chunk(std::size_t slot) const;
 };
 
-void Drive::Work::begin_stage(std::string_view name) const {
+std::uint64_t Drive::Work::n_samples() const {
   std::uint64_t n_samples = 0;
   for (std::size_t n = 0; n < tasks.n_tasks(); ++n) {
     n_samples += tasks.samples(n);
   }
-  progress.begin(name, n_samples, "samples");
+  return n_samples;
 }
 
 void Drive::Work::look_at_stop() const {
@@ -110,29 +112,48 @@ void Drive::Work::number(std::size_t slot) {
   }
 }
 
-void Drive::Work::count(bool allow_empty) {
-  begin_stage("count");
+/// Counts tasks first, first + stride, ...
+MeshTotals Drive::Work::counts(std::size_t first, std::size_t stride) {
   Sum counted(false);
+  const auto nth = [first, stride](std::size_t item) { return first + item * stride; };
   const std::array<base::Step, 2> steps{{
       {false,
-       [this](std::size_t n, std::size_t slot) {
+       [&](std::size_t item, std::size_t slot) {
          look_at_stop();
-         tasks.count(n, slot, results[slot]);
+         tasks.count(nth(item), slot, results[slot]);
        }},
       {true,
-       [this, &counted](std::size_t n, std::size_t slot) {
+       [&](std::size_t item, std::size_t slot) {
          counted.add(results[slot].totals);
-         progress.advance(tasks.samples(n));
+         if (stride == 1) progress.advance(tasks.samples(item));
        }},
   }};
-  base::pipeline(tasks.n_tasks(), results.size(), steps);
-  object.n_vertices = counted.totals({}).n_vertices;
-  object.n_triangles = counted.totals({}).n_triangles;
+  const std::size_t n_tasks = tasks.n_tasks();
+  base::pipeline(n_tasks > first ? (n_tasks - first + stride - 1) / stride : 0, results.size(),
+                 steps);
+  return counted.totals({});
+}
+
+/// Whether counts are worth a read of all samples, judged by some of the tasks. Measured on files
+/// in memory: spooling a triangle costs as much as counting 22 samples. A mesh of more than ten
+/// million triangles may be more than a format can hold, which is better known before the work.
+bool Drive::Work::is_large() {
+  constexpr std::size_t kStride = 16;
+  constexpr std::uint64_t kSamplesPerTriangle = 22, kMany = 10'000'000;
+  const std::uint64_t about = kStride * counts(kStride / 2, kStride).n_triangles;
+  return about > kMany || about * kSamplesPerTriangle > n_samples();
+}
+
+void Drive::Work::count(bool allow_empty) {
+  progress.begin("count", n_samples(), "samples");
+  const MeshTotals counted = counts(0, 1);
+  object.n_vertices = counted.n_vertices;
+  object.n_triangles = counted.n_triangles;
   if (object.n_triangles == 0U && !allow_empty) throw no_surface();
 }
 
 void Drive::Work::extract() {
-  begin_stage("extract");
+  progress.begin("extract", n_samples(), "samples");
   const std::array<base::Step, 5> steps{{
       {false,
        [this](std::size_t n, std::size_t slot) {
@@ -170,7 +191,8 @@ MeshTotals Drive::run(TaskList& tasks, std::size_t n_slots, const RunOptions& op
   work.object.has_normals = options.extract.normals != Normals::none;
   work.object.precision = options.extract.precision;
   work.object.origin = options.extract.origin;
-  if (options.count_first) {
+  const CountFirst count = options.count_first;
+  if (count == CountFirst::yes || (count == CountFirst::if_large && work.is_large())) {
     work.count(allow_empty);
   }
   work.extract();

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <stop_token>
-#include <string_view>
 #include <vector>
 
 #include "mc/mesh.hpp"

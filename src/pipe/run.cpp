@@ -17,8 +17,9 @@ std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunO
   return pipe::sparse_tasks(*std::get<std::unique_ptr<LeafReader>>(reader), options);
 }
 
-std::uint64_t needed(const pipe::TaskList& tasks, std::size_t n_slots) {
-  return tasks.held_bytes(n_slots) + n_slots * tasks.chunk_bytes();
+/// Of a run with so many chunks on their way, and what the sink makes of them.
+std::uint64_t needed(const pipe::TaskList& tasks, std::size_t n_slots, const RunOptions& options) {
+  return tasks.held_bytes(n_slots) + n_slots * tasks.chunk_bytes() * (1 + options.formatted);
 }
 
 std::string kibibytes(std::uint64_t bytes) {
@@ -26,13 +27,13 @@ std::string kibibytes(std::uint64_t bytes) {
 }
 
 /// As many slots as the memory allows: the fewer, the fewer threads have work.
-std::size_t slots_within(const pipe::TaskList& tasks, std::uint64_t memory_bytes) {
+std::size_t slots_within(const pipe::TaskList& tasks, const RunOptions& options) {
   std::size_t n_slots = base::pipeline_slots();
-  while (needed(tasks, n_slots) > memory_bytes) {
+  while (needed(tasks, n_slots, options) > options.memory_bytes) {
     if (n_slots == 1) {
       throw Error(ErrorKind::limit, "--memory",
-                  "this run needs about " + kibibytes(needed(tasks, 1)) + ", but only " +
-                      kibibytes(memory_bytes) + " are allowed",
+                  "this run needs about " + kibibytes(needed(tasks, 1, options)) + ", but only " +
+                      kibibytes(options.memory_bytes) + " are allowed",
                   "raise --memory or extract in parts with --region");
     }
     n_slots = (n_slots + 1) / 2;
@@ -44,19 +45,19 @@ std::size_t slots_within(const pipe::TaskList& tasks, std::uint64_t memory_bytes
 
 std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options) {
   const std::size_t n_slots = base::pipeline_slots();
-  return needed(*tasks_for(reader, options), n_slots);
+  return needed(*tasks_for(reader, options), n_slots, options);
 }
 
 void check_memory(const VolumeReader& reader, const RunOptions& options) {
   if (std::holds_alternative<std::unique_ptr<SlabReader>>(reader)) {
-    slots_within(*tasks_for(reader, options), options.memory_bytes);
+    slots_within(*tasks_for(reader, options), options);
   }
 }
 
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop) {
   const auto tasks = tasks_for(reader, options);
-  const std::size_t n_slots = slots_within(*tasks, options.memory_bytes);
+  const std::size_t n_slots = slots_within(*tasks, options);
   tasks->set_slots(n_slots);
   return pipe::Drive().run(*tasks, n_slots, options, allow_empty, sink, progress, stop);
 }

@@ -97,12 +97,13 @@ bool is_mesh_format(std::string_view format) {
 }
 
 MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f32_moves) {
+  constexpr std::uint32_t kText = 4;
   const Precision exact = f32_moves ? Precision::f64 : Precision::f32;
   if (format == "ply") {
-    return {.precision = options.precision.value_or(exact)};
+    return {.precision = options.precision.value_or(exact), .formatted = options.ascii ? kText : 1};
   }
   if (format == "obj") {
-    return {.precision = exact};
+    return {.precision = exact, .formatted = kText};
   }
   return {.relative_origin = f32_moves && (format == "glb" || format == "gltf")};
 }

@@ -66,7 +66,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   RunOptions run_options;
   run_options.extract = options;
   run_options.slab_layers = how.slab_layers;
-  run_options.count_first = how.count_first;
+  run_options.count_first = how.count_first ? CountFirst::yes : CountFirst::no;
   Collected out;
   CollectingSink sink(out);
   run(reader, run_options, true, sink, silent_progress(), {});

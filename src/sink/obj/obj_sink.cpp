@@ -2,6 +2,7 @@
 #include "sink/obj/obj_sink.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <optional>
 #include <vector>
@@ -101,7 +102,9 @@ void ObjSink::print_faces(const MeshChunk& chunk, Piece& piece) const {
       at = print_number(at, first_vertex_ + id);
       if (one_id) {
         const auto n = static_cast<std::size_t>(at - vertex);
-        std::memmove(print_text(at, "//"), vertex, kMostDigits);  // a fixed length is no call
+        std::array<char, kMostDigits> digits;  // a fixed length is no call
+        std::memcpy(digits.data(), vertex, digits.size());
+        std::memcpy(print_text(at, "//"), digits.data(), digits.size());
         at += 2 + n;
       } else if (object_.has_normals) {
         at = print_number(print_text(at, "//"), first_normal_ + id);

@@ -27,7 +27,8 @@ constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;  // of a spooled
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetBytes = 50;  // normal, three positions, two bytes of attributes
 
-constexpr std::size_t kFacetsAtOnce = 32768;
+// A block is just larger than what the file layer would gather first.
+constexpr std::size_t kFacetsAtOnce = kBufferBytes / kFacetBytes + 1;
 
 using Triple = std::array<float, 3>;
 using Facet = std::array<Triple, 3>;
