@@ -124,7 +124,10 @@ void BlockIndex::add_leaves(std::span<const Index3> origins) {
     std::uint32_t n = 0;
     for (Node& node : nodes_) {
       node.leaves = n;
-      n += ones_in(node.leaf);
+      for (std::size_t w = 0; w < 8; ++w) {
+        node.leaves_before[w] = static_cast<std::uint16_t>(n - node.leaves);
+        n += static_cast<std::uint32_t>(std::popcount(node.leaf[w]));
+      }
     }
   };
   number_nodes();
@@ -189,13 +192,13 @@ const BlockIndex::Node* BlockIndex::find(const Index3& key) const {
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t s = hash_of(key) & mask; slots_[s] != 0; s = (s + 1) & mask) {
     const Node& node = nodes_[slots_[s] - 1];
-    if (node.key == key) return &node;
+    if (same(node.key, key)) return &node;
   }
   return nullptr;
 }
 
 std::uint32_t BlockIndex::node_at(const Index3& key) {
-  if (last_ < nodes_.size() && nodes_[last_].key == key) return last_;
+  if (last_ < nodes_.size() && same(nodes_[last_].key, key)) return last_;
   if (const Node* node = find(key); node != nullptr) {
     return last_ = static_cast<std::uint32_t>(node - nodes_.data());
   }
@@ -238,8 +241,13 @@ Block BlockIndex::at(const Index3& block) const {
   };
   const BitPlace p = place_in_node(block);
   if (const Node* node = find(block_of(block)); node != nullptr) {
-    if (test(node->leaf, p))
-      return {leaf_entries_[node->leaves + rank_in(node->leaf, p)], {}, false};
+    if (test(node->leaf, p)) {
+      const std::uint64_t before = node->leaf[p.word] & ((std::uint64_t{1} << p.bit) - 1);
+      return {leaf_entries_[node->leaves + node->leaves_before[p.word] +
+                            static_cast<std::uint32_t>(std::popcount(before))],
+              {},
+              false};
+    }
     if (!test(node->tile, p)) return constant(0);
     return constant(node->constant != kVarious
                         ? node->constant

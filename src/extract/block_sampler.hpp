@@ -25,9 +25,11 @@ class BlockSampler {
                std::byte* scratch)
       : reader_(reader), index_(index), box_(box), scratch_(scratch) {}
 
-  void move_to(const Index3& block) {
+  /// `values` are the block's own, null where it is constant.
+  void move_to(const Index3& block, const std::byte* values) {
     corner_ = {block[0] - 1, block[1] - 1, block[2] - 1};
-    known_ = 0;
+    known_ = values != nullptr ? 1U << kMiddle : 0;
+    values_[kMiddle] = values;
   }
   [[nodiscard]] const IndexBox& box() const noexcept { return box_; }
 
@@ -45,7 +47,7 @@ class BlockSampler {
 
   /// The values of the block itself, or of the next along an axis: `source` = 1 + axis.
   [[nodiscard]] const std::byte* source(std::size_t source) const {
-    static constexpr std::size_t kPlace[4] = {13, 14, 16, 22};
+    static constexpr std::size_t kPlace[4] = {kMiddle, kMiddle + 1, kMiddle + 3, kMiddle + 9};
     return values(kPlace[source]);
   }
   [[nodiscard]] static Real<T> real(const std::byte* values, std::size_t at) {
@@ -53,6 +55,8 @@ class BlockSampler {
   }
 
  private:
+  static constexpr std::size_t kMiddle = 13;  // of the ring's 27 blocks
+
   static T value(const std::byte* values, std::size_t at) {
     return field::load_sample<T, false>(values + at * sizeof(T));
   }

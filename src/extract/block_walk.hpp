@@ -32,7 +32,7 @@ class BlockWalk {
       while (p < blocks_.size() && before(blocks_[p].at, block)) ++p;
       std::size_t next = p;
       for (std::size_t x = 0; x < kWidth; ++x, ++block[0]) {
-        const bool there = next < blocks_.size() && blocks_[next].at == block;
+        const bool there = next < blocks_.size() && same(blocks_[next].at, block);
         found_[row * kWidth + x] = there ? next++ : kNoBlock;
       }
     }

@@ -2,7 +2,6 @@
 #include "extract/sparse.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <limits>
 
@@ -13,14 +12,12 @@ namespace mc::extraction {
 
 namespace {
 
-constexpr std::size_t kScratchBytes = BlockSampler<double>::kScratchBytes;
+constexpr std::size_t kRingBytes = BlockSampler<double>::kScratchBytes;
 
 Index3 origin_of(const Index3& block) { return {block[0] * 8, block[1] * 8, block[2] * 8}; }
 
-std::size_t ones_in(const Mask512& mask) {
-  int n = 0;
-  for (const std::uint64_t word : mask) n += std::popcount(word);
-  return static_cast<std::size_t>(n);
+bool any(const Mask512& mask) {
+  return std::ranges::any_of(mask, [](std::uint64_t word) { return word != 0; });
 }
 
 }  // namespace
@@ -29,11 +26,12 @@ SparseExtractor::SparseExtractor(const SparsePlan& plan, const Affine& to_world)
     : plan_(plan),
       to_world_(to_world),
       placement_(to_world, plan.options()),
-      apex_(middle_of(plan.options().region.value_or(plan.reader().volume().lattice.box))) {}
+      apex_(middle_of(plan.options().region.value_or(plan.reader().volume().lattice.box))),
+      queue_(plan.reader()) {}
 
 std::uint64_t SparseExtractor::scratch_bytes() {
-  return sizeof(SparseExtractor) + kKnown * sizeof(KnownEdges) + kScratchBytes +
-         EdgeBatch<double>::kEnough * EdgeBatch<double>::kBytesAnEdge;
+  return sizeof(SparseExtractor) + kKnown * sizeof(KnownEdges) + kRingBytes +
+         LeafQueue::kScratchBytes + EdgeBatch<double>::kEnough * EdgeBatch<double>::kBytesAnEdge;
 }
 
 const SparseExtractor::KnownEdges& SparseExtractor::edges_at(const Walk& walk, std::size_t x,
@@ -70,7 +68,7 @@ void SparseExtractor::emit_triangles(const Walk& walk, std::uint64_t base, const
     enter_ids(d, there.edges, static_cast<std::uint32_t>(first), ids_);
   }
   const std::size_t before = chunk.indices.size();
-  chunk.indices.resize(before + 15 * ones_in(cells) + kBlockSlack);
+  chunk.indices.resize(before + 15 * LeafReader::kLeafSamples + kBlockSlack);
   const std::size_t written =
       emit_block(above, cells, ids_, placement_.flip, chunk.indices.data() + before);
   chunk.indices.resize(before + written);
@@ -144,7 +142,7 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
                                     TaskTotals& totals) {
   using Sampler = BlockSampler<T>;
   const ExtractOptions& options = plan_.options();
-  Sampler sampler(plan_.reader(), plan_.index(), plan_.box(), leaf_scratch_.data());
+  Sampler sampler(plan_.reader(), plan_.index(), plan_.box(), ring_scratch_.data());
   VertexRules<T> rules(options, to_world_, plan_.threshold());
   rules.capped = plan_.capped();
   const EdgeVertices<T, Sampler> vertices(rules, sampler);
@@ -153,10 +151,18 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
   const std::uint64_t base = plan_.first_vertex(first);
   Walk walk(plan_.blocks());
   BlockSamples samples;
+  LeafWalk leaves(plan_.reader().leaves(), plan_.blocks()[first].at);
+  std::size_t ahead = first;
+  const auto push = [&] {
+    queue_.push(ahead < last ? leaves.find(plan_.blocks()[ahead].at) : Block::kConstant);
+    ++ahead;
+  };
+  queue_.clear();
+  for (std::size_t n = 0; n < LeafQueue::kAhead; ++n) push();
   for (std::size_t n = first; n < last; ++n) {
     const Index3& block = plan_.blocks()[n].at;
     walk.move_to(n);
-    sampler.move_to(block);
+    sampler.move_to(block, queue_.pop());
     n_edges_ = list_edges(edges_at(walk, 0, 0, 0).edges, edges_.data());
     const BlockBits* exists = plan_.samples_around(block, samples);
     write_vertices(block, exists != nullptr, sampler, writer);
@@ -167,7 +173,7 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
     if (options.region && !plan_.capped()) {
       totals.n_boundary_edges += boundary_edges(block, above, cells);
     }
-    if (options.measure && ones_in(cells) != 0) {
+    if (options.measure && any(cells)) {
       const Index3 o = origin_of(block);
       LayerSum sum;
       for (std::int32_t k = 0; k < 8; ++k) {
@@ -178,6 +184,7 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
       }
       totals.layers.push_back(sum);
     }
+    push();
   }
   writer.flush();
   totals.n_vertices = chunk.n_vertices();
@@ -189,7 +196,7 @@ void SparseExtractor::extract(std::size_t first, std::size_t last, MeshChunk& ch
   chunk.clear();
   totals.clear();
   known_.resize(kKnown);
-  leaf_scratch_.resize(kScratchBytes);
+  ring_scratch_.resize(kRingBytes);
   field::visit_type(plan_.threshold().type, [&]<class T>(field::TypeTag<T> /*tag*/) {
     extract_typed<T>(first, last, chunk, totals);
   });

@@ -8,6 +8,7 @@
 
 #include "extract/block_kernels.hpp"
 #include "extract/block_walk.hpp"
+#include "extract/leaf_queue.hpp"
 #include "extract/sparse_plan.hpp"
 #include "extract/surface_sums.hpp"
 #include "extract/vertex_writer.hpp"
@@ -69,7 +70,8 @@ class SparseExtractor {
   std::size_t n_edges_ = 0;
   IdTable ids_;
   BlockSamples samples_;
-  std::vector<std::byte> leaf_scratch_;
+  LeafQueue queue_;
+  std::vector<std::byte> ring_scratch_;
   std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "base/parallel.hpp"
 #include "extract/classify.hpp"
+#include "extract/leaf_queue.hpp"
 
 namespace mc::extraction {
 
@@ -32,45 +33,6 @@ LeafSide side_of(const Mask512& bits) {
   }
   return any == 0 ? LeafSide::below : all + 1 == 0 ? LeafSide::above : LeafSide::mixed;
 }
-
-/// Reads leaves ahead of their use: they lie about in memory, where no core sees the next one
-/// coming.
-class LeafStream {
- public:
-  LeafStream(const LeafReader& reader, std::size_t begin, std::size_t end)
-      : reader_(reader),
-        leaf_bytes_(LeafReader::kLeafSamples * sample_size(reader.volume().type)),
-        next_(begin),
-        end_(end),
-        scratch_(kAhead * LeafReader::kLeafSamples * sizeof(double)) {
-    for (std::size_t n = 0; n < kAhead; ++n) fetch();
-  }
-  /// The values of the next leaf, good until kAhead - 1 more were taken.
-  const std::byte* take() {
-    const std::byte* values = values_[taken_++ % kAhead];
-    return values;
-  }
-  /// Begins to read the leaf that is kAhead on; after the last taken one was used.
-  void fetch() {
-    if (next_ == end_) return;
-    const std::size_t slot = fetched_++ % kAhead;
-    std::byte* scratch = scratch_.data() + slot * LeafReader::kLeafSamples * sizeof(double);
-    const std::byte* values = reader_.leaf_values(next_++, scratch);
-    for (std::size_t at = 0; values != scratch && at < leaf_bytes_; at += 64) {
-      __builtin_prefetch(values + at);
-    }
-    values_[slot] = values;
-  }
-
- private:
-  static constexpr std::size_t kAhead = 4;
-  const LeafReader& reader_;
-  std::size_t leaf_bytes_;
-  std::size_t next_, end_;
-  std::size_t taken_ = 0, fetched_ = 0;
-  std::vector<std::byte> scratch_;
-  std::array<const std::byte*, kAhead> values_{};
-};
 
 }  // namespace
 
@@ -130,15 +92,21 @@ std::vector<LeafSide> SparsePlan::classify_leaves() {
   std::vector<LeafSide> sides(n_leaves);
   pool_.resize((n_leaves + BitPool::kGroup - 1) / BitPool::kGroup);
   base::for_ranges(pool_.n_groups(), 1, [&](std::size_t begin, std::size_t end) {
-    LeafStream stream(reader_, begin * BitPool::kGroup, std::min(n_leaves, end * BitPool::kGroup));
+    LeafQueue queue(reader_);
+    std::size_t ahead = begin * BitPool::kGroup;
+    const auto push = [&] {
+      queue.push(ahead < n_leaves ? ahead : Block::kConstant);
+      ++ahead;
+    };
+    for (std::size_t n = 0; n < LeafQueue::kAhead; ++n) push();
     std::vector<Mask512> mixed(BitPool::kGroup);
     for (std::size_t g = begin; g < end; ++g) {
       std::size_t n_mixed = 0;
       const std::size_t last = std::min(n_leaves, (g + 1) * BitPool::kGroup);
       for (std::size_t n = g * BitPool::kGroup; n < last; ++n) {
-        sides[n] = classify_leaf(n, stream.take(), mixed[n_mixed]);
+        sides[n] = classify_leaf(n, queue.pop(), mixed[n_mixed]);
         n_mixed += sides[n] == LeafSide::mixed ? 1 : 0;
-        stream.fetch();
+        push();
       }
       pool_.group(g).assign(mixed.begin(), mixed.begin() + static_cast<std::ptrdiff_t>(n_mixed));
     }
@@ -192,8 +160,8 @@ void SparsePlan::find_capped_blocks(const std::vector<LeafSide>& sides) {
   blocks_.insert(blocks_.begin(), inner.begin(), inner.end());  // first where both name a block
   std::ranges::stable_sort(
       blocks_, [](const SurfaceBlock& a, const SurfaceBlock& b) { return before(a.at, b.at); });
-  const auto same = [](const SurfaceBlock& a, const SurfaceBlock& b) { return a.at == b.at; };
-  blocks_.erase(std::unique(blocks_.begin(), blocks_.end(), same), blocks_.end());
+  const auto one = [](const SurfaceBlock& a, const SurfaceBlock& b) { return same(a.at, b.at); };
+  blocks_.erase(std::unique(blocks_.begin(), blocks_.end(), one), blocks_.end());
   const auto constant_bits = [&](bool above, const Index3& block) {
     const Mask512 in = inside_region(block, 0);
     Mask512 bits;
