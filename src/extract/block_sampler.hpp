@@ -45,6 +45,17 @@ class BlockSampler {
     return static_cast<Real<T>>(field::number(raw(p)));
   }
 
+  /// Central differences at (x, y, z) of the block, each in 0..8, as EdgeVertices::gradient() makes
+  /// them of samples that the box holds.
+  [[nodiscard]] std::array<Real<T>, 3> gradient(int x, int y, int z) const {
+    const auto difference = [](Real<T> behind, Real<T> before) {
+      return (behind - before) * Real<T>{0.5};
+    };
+    return {difference(near(x + 1, y, z), near(x - 1, y, z)),
+            difference(near(x, y + 1, z), near(x, y - 1, z)),
+            difference(near(x, y, z + 1), near(x, y, z - 1))};
+  }
+
   /// The values of the block itself, or of the next along an axis: `source` = 1 + axis.
   [[nodiscard]] const std::byte* source(std::size_t source) const {
     static constexpr std::size_t kPlace[4] = {kMiddle, kMiddle + 1, kMiddle + 3, kMiddle + 9};
@@ -59,6 +70,12 @@ class BlockSampler {
 
   static T value(const std::byte* values, std::size_t at) {
     return field::load_sample<T, false>(values + at * sizeof(T));
+  }
+  /// The sample at (x, y, z) from the block's origin, each in -8..15.
+  [[nodiscard]] Real<T> near(int x, int y, int z) const {
+    const auto n = static_cast<std::size_t>((x >> 3) + 3 * (y >> 3) + 9 * (z >> 3) +
+                                            static_cast<int>(kMiddle));
+    return real(values(n), static_cast<std::size_t>((x & 7) * 64 + (y & 7) * 8 + (z & 7)));
   }
   /// The values of block n of the ring; of a constant block, as many copies.
   const std::byte* values(std::size_t n) const {

@@ -16,6 +16,14 @@ constexpr std::size_t kRingBytes = BlockSampler<double>::kScratchBytes;
 
 Index3 origin_of(const Index3& block) { return {block[0] * 8, block[1] * 8, block[2] * 8}; }
 
+/// Whether a box holds all samples that the vertices of a block can be made of.
+bool holds_ring(const IndexBox& box, const Index3& block) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (block[a] * 8 - 1 < box.lo[a] || block[a] * 8 + 9 > box.hi[a]) return false;
+  }
+  return true;
+}
+
 bool any(const Mask512& mask) {
   return std::ranges::any_of(mask, [](std::uint64_t word) { return word != 0; });
 }
@@ -120,7 +128,7 @@ void SparseExtractor::write_vertices(const Index3& block, bool at_border, Sample
     const EdgePlace& p = kEdgePlaces[edge];
     return LatticeEdge{{o[0] + p.i, o[1] + p.j, o[2] + p.k}, p.axis};
   };
-  if (at_border || writer.wants_gradients()) {
+  if (at_border) {
     for (std::size_t e = 0; e < n_edges_; ++e) writer.write(edge_of(edges_[e]));
     return;
   }
@@ -130,10 +138,23 @@ void SparseExtractor::write_vertices(const Index3& block, bool at_border, Sample
   for (std::size_t s = 0; s < 4; ++s) {
     if ((wanted >> s & 1U) != 0) sources[s] = sampler.source(s);
   }
+  if (writer.wants_gradients()) {
+    writer.write_inside(n_edges_, [&](std::size_t e) {
+      const EdgePlace& p = kEdgePlaces[edges_[e]];
+      return typename Writer::CutEdge{
+          edge_of(edges_[e]), sampler.real(sources[0], p.lower),
+          sampler.real(sources[p.upper_source], p.upper), sampler.gradient(p.i, p.j, p.k),
+          sampler.gradient(p.i + (p.axis == 0), p.j + (p.axis == 1), p.k + (p.axis == 2))};
+    });
+    return;
+  }
   writer.write_inside(n_edges_, [&](std::size_t e) {
     const EdgePlace& p = kEdgePlaces[edges_[e]];
-    return typename Writer::CutEdge{edge_of(edges_[e]), sampler.real(sources[0], p.lower),
-                                    sampler.real(sources[p.upper_source], p.upper)};
+    return typename Writer::CutEdge{edge_of(edges_[e]),
+                                    sampler.real(sources[0], p.lower),
+                                    sampler.real(sources[p.upper_source], p.upper),
+                                    {},
+                                    {}};
   });
 }
 
@@ -165,7 +186,7 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
     sampler.move_to(block, queue_.pop());
     n_edges_ = list_edges(edges_at(walk, 0, 0, 0).edges, edges_.data());
     const BlockBits* exists = plan_.samples_around(block, samples);
-    write_vertices(block, exists != nullptr, sampler, writer);
+    write_vertices(block, !holds_ring(plan_.box(), block), sampler, writer);
     if (options.normals != Normals::none) writer.flush();  // while the sampler is here
     const BlockBits above = plan_.bits_around(walk, 0, 0, 0);
     const Mask512 cells = find_cells(above, exists);

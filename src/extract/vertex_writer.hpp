@@ -102,15 +102,16 @@ class VertexWriter {
     }
   }
 
-  /// An edge and its samples.
+  /// An edge, the samples at its ends, and the gradients there where they are wanted.
   struct CutEdge {
     LatticeEdge edge;
     R a, b;
+    std::array<R, 3> lower_gradient, upper_gradient;
   };
-  /// Adds n edges inside the box, edge_at(m) each, where no gradients are wanted.
+  /// Adds n edges inside the box, edge_at(m) each.
   template <class EdgeAt>
   void write_inside(std::size_t n, EdgeAt&& edge_at) {
-    batch_.reserve(EdgeBatch<R>::kEnough, false);
+    batch_.reserve(EdgeBatch<R>::kEnough, wants_gradients());
     for (std::size_t m = 0; m < n;) {
       if (batch_.n == EdgeBatch<R>::kEnough) flush();
       const std::size_t end = std::min(n, m + EdgeBatch<R>::kEnough - batch_.n);
@@ -123,6 +124,10 @@ class VertexWriter {
         batch_.axis[at] = cut.edge.axis;
         batch_.a[at] = cut.a;
         batch_.b[at] = cut.b;
+        for (std::size_t a = 0; wants_gradients() && a < 3; ++a) {
+          batch_.lower_gradient[a][at] = cut.lower_gradient[a];
+          batch_.upper_gradient[a][at] = cut.upper_gradient[a];
+        }
       }
     }
   }
