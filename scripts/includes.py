@@ -33,7 +33,9 @@ IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp"}
 
 # include pattern: the files below src/ that are the library's door.
 DOORS = {
-    "openvdb/*": ["source/vdb/*", "sink/vdb/*"],
+    "openvdb/*": ["sink/vdb/module/*"],
+    "blosc.h": ["source/vdb/*"],
+    "libdeflate.h": ["source/vdb/*"],
     "OpenEXR/*": ["source/exr/*", "sink/exr/*"],
     "Imf*": ["source/exr/*", "sink/exr/*"],
     "tiny_gltf*": ["sink/gltf/*"],
@@ -50,7 +52,7 @@ DOORS = {
 # What a system brings without a library: the C++ and C headers have no suffix or are listed.
 SYSTEM = re.compile(
     r"[a-z_0-9]+|(sys|linux|asm)/[a-z_0-9]+\.h|"
-    r"(dirent|errno|fcntl|glob|malloc|poll|pthread|sched|signal|spawn|stdio|termios|time|unistd)\.h"
+    r"(cpuid|dirent|dlfcn|errno|fcntl|glob|malloc|poll|pthread|sched|signal|spawn|stdio|termios|time|unistd)\.h"
 )
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stop_token>
 
@@ -33,19 +34,43 @@ struct ExtractOptions {
   Precision precision = Precision::f32;  ///< of chunk positions
   Vec3 origin{};                         ///< subtracted from every position before rounding
   bool measure = false;                  ///< also sum area and volume (costs about as much again)
+
+  bool operator==(const ExtractOptions&) const = default;
 };
 
-/// Extracts the surface of an array in memory.
-/// Shapes   view: at least 2 samples along each axis; T is one of uint8_t, int8_t, uint16_t,
-///          int16_t, uint32_t, int32_t, int64_t, Half, float, double.
-/// Units    iso in sample units; positions are `to_world` of lattice indices.
-/// Solid    see Inside; triangles wind counter-clockwise seen from outside, also under a mirroring
-/// map. Errors   usage: a thin view, an iso that is not finite; limit: more than 2^32-1 vertices.
-/// Threads  uses the caller's arena; the result does not depend on the thread count.
-/// Cost     O(samples) reads, then O(surface); one bit a sample of scratch for a few planes.
-/// Source   Schroeder, Maynard, Geveci, "Flying Edges", LDAV 2015. Differs: one bit a sample, ids
-/// by
-///          popcount, a case table whose face rule leaves no holes.
+/// Extracts surfaces of arrays in memory, again and again. Keeps scratch from call to call: with a
+/// mesh that is kept as well, a call like the last one allocates nothing on one thread, and on
+/// several no more than its threads need, whatever the size.
+class Extractor {
+ public:
+  Extractor();
+  ~Extractor();
+  Extractor(Extractor&& other) noexcept;
+  Extractor& operator=(Extractor&& other) noexcept;
+
+  /// Extracts the surface of an array into `mesh`, whose memory is used again.
+  /// Shapes   view: at least 2 samples along each axis; T is one of uint8_t, int8_t, uint16_t,
+  ///          int16_t, uint32_t, int32_t, int64_t, Half, float, double.
+  /// Units    iso in sample units; positions are `to_world` of lattice indices.
+  /// Solid    see Inside; triangles wind counter-clockwise seen from outside, also under a
+  ///          mirroring map.
+  /// Errors   usage: a thin view, an iso that is not finite; limit: more than 2^32-1 vertices.
+  ///          The mesh is then empty.
+  /// Threads  uses the caller's arena; the result does not depend on the thread count. One call at
+  ///          a time.
+  /// Cost     O(samples) reads, then O(surface); one bit a sample of scratch for a few planes.
+  /// Source   Schroeder, Maynard, Geveci, "Flying Edges", LDAV 2015. Differs: one bit a sample,
+  ///          ids by popcount, a case table whose face rule leaves no holes.
+  template <class T>
+  void extract(View3<const T> view, const ExtractOptions& options, const Affine& to_world,
+               Mesh& mesh);
+
+ private:
+  struct Scratch;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+/// Extracts one surface: Extractor::extract() into a new mesh.
 template <class T>
 Mesh extract(View3<const T> view, const ExtractOptions& options, const Affine& to_world = {});
 

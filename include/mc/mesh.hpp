@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -75,25 +77,39 @@ struct MeshNeeds {
   bool relative_origin = false;          ///< positions come relative to MeshObject::origin
 };
 
-/// The port by which meshes leave. Calls: (begin_object, write..., end_object)..., finish.
+/// The port by which meshes leave. Calls: set_slots, (begin_object, chunks, end_object)..., finish.
 /// Destroyed before finish(), it leaves nothing behind.
+///
+/// A chunk goes through three steps, in all of which it has the same slot, its own until the last
+/// has ended: what a sink keeps of a chunk from step to step lives there. Chunks are in order, and
+/// only place() sees them so; the other two run on several threads, each with another slot. Between
+/// begin_object() and end_object() of one object nothing else is called.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;
+  /// So many chunks may be on their way at once (one, where this is not called).
+  virtual void set_slots(std::size_t n_slots);
   /// Errors: limit, when counts that are known already do not fit the format; output.
   virtual void begin_object(const MeshObject& object) = 0;
-  /// Chunks in order. Errors: limit, output.
-  virtual void write(const MeshChunk& chunk) = 0;
+  /// Any thread: makes what will be written of the chunk, as far as that needs no place.
+  virtual void format(const MeshChunk& chunk, std::size_t slot);
+  /// One at a time, in order: says where the chunk goes; writes it, where the output cannot seek.
+  /// Errors: limit, output.
+  virtual void place(const MeshChunk& chunk, std::size_t slot) = 0;
+  /// Any thread: puts it there. Errors: output.
+  virtual void write(const MeshChunk& chunk, std::size_t slot);
   virtual void end_object(const MeshTotals& totals) = 0;
   /// Completes the output and puts it under its name(s).
   virtual void finish() = 0;
+  /// All steps of the next chunk, for who has one thread.
+  void put(const MeshChunk& chunk);
 };
 
 /// A mesh in memory.
 struct Mesh {
-  std::vector<std::array<float, 3>> positions;
-  std::vector<std::array<float, 3>> normals;  ///< one a vertex, or none
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  Buffer<std::array<float, 3>> positions;
+  Buffer<std::array<float, 3>> normals;  ///< one a vertex, or none
+  Buffer<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// A mesh read back from a file, as `check` wants it: what is there, also where it is wrong.

@@ -4,6 +4,9 @@
 find_package(TBB CONFIG REQUIRED COMPONENTS tbb) # before OpenVDB, which defines the same targets
 find_package(fmt CONFIG REQUIRED)
 find_package(hwy CONFIG REQUIRED)
+if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
+  set(MC_LINKS_HIGHWAY ON) # on x86 base/highway_simd.cpp stands in for the little that is used
+endif()
 find_package(nlohmann_json CONFIG REQUIRED)
 find_package(CLI11 CONFIG REQUIRED)
 
@@ -14,14 +17,19 @@ option(MC_GLTF "glTF and GLB through tinygltf" ${TinyGLTF_FOUND})
 # neighbours FindTBB and FindOpenEXR would shadow the good ones.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
 find_package(OpenVDB 10 QUIET COMPONENTS openvdb)
-option(MC_VDB "OpenVDB volumes" ${OpenVDB_FOUND})
+find_library(MC_BLOSC blosc)
+find_library(MC_DEFLATE deflate)
+if(OpenVDB_FOUND AND MC_BLOSC AND MC_DEFLATE)
+  set(MC_VDB_FOUND ON)
+endif()
+option(MC_VDB "OpenVDB volumes" ${MC_VDB_FOUND})
 
 # Links what the formats need to `target` and defines MC_WITH_* for those that are built in.
 function(mc_link_formats target)
   target_compile_definitions(${target} PUBLIC
     MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>)
   if(MC_VDB)
-    target_link_libraries(${target} PRIVATE OpenVDB::openvdb)
+    target_link_libraries(${target} PRIVATE blosc deflate)
   endif()
   if(MC_GLTF)
     target_link_libraries(${target} PRIVATE TinyGLTF::TinyGLTF)

@@ -8,6 +8,7 @@ function(mc_room_sources out)
     list(APPEND all ${found})
   endforeach()
   list(FILTER all EXCLUDE REGEX "/main\\.cpp$") # a program's, not a library's
+  list(FILTER all EXCLUDE REGEX "/module/") # loaded when needed: see McModules.cmake
   set(${out} ${all} PARENT_SCOPE)
 endfunction()
 

@@ -2,14 +2,14 @@
 #include "base/parallel.hpp"
 
 #include <algorithm>
-#include <exception>
+#include <mutex>
+#include <vector>
 
 #if MC_THREADS_STD
 #include <atomic>
 #include <condition_variable>
-#include <mutex>
+#include <exception>
 #include <thread>
-#include <vector>
 #else
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -19,6 +19,37 @@
 #endif
 
 namespace mc::base {
+
+namespace {
+
+/// The items on their way and the slots that are free, the last one used first: its memory is
+/// nearest.
+class Slots {
+ public:
+  explicit Slots(std::size_t n) : item_(n) {
+    for (std::size_t slot = n; slot-- > 0;) free_.push_back(slot);
+  }
+  [[nodiscard]] bool any_free() const { return !free_.empty(); }
+  std::size_t take(std::size_t item) {
+    const std::lock_guard lock(mutex_);
+    const std::size_t slot = free_.back();
+    free_.pop_back();
+    item_[slot] = item;
+    return slot;
+  }
+  void give_back(std::size_t slot) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(slot);
+  }
+  [[nodiscard]] std::size_t item(std::size_t slot) const { return item_[slot]; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::size_t> free_;
+  std::vector<std::size_t> item_;
+};
+
+}  // namespace
 
 #if MC_THREADS_STD
 
@@ -79,48 +110,69 @@ void for_ranges(std::size_t n, std::size_t grain,
   });
 }
 
-void ordered_pipeline(std::size_t n_items, std::size_t n_slots,
-                      const std::function<void(std::size_t, std::size_t)>& work,
-                      const std::function<void(std::size_t, std::size_t)>& consume) {
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::size_t next = 0;
-  std::size_t consumed = 0;
-  bool failed = false;
-  const auto take = [&](std::size_t& item) {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return failed || next >= n_items || next - consumed < n_slots; });
-    if (failed || next >= n_items) return false;
-    item = next++;
-    return true;
-  };
-  const auto in_turn = [&](std::size_t item) {
-    std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return failed || consumed == item; });
-    return !failed;
-  };
-  on_threads(std::min<int>(thread_count(), static_cast<int>(n_slots)), [&] {
+namespace {
+
+/// Several threads, each of which carries an item through all steps.
+class Carriers {
+ public:
+  Carriers(std::size_t n_items, std::size_t n_slots, std::span<const Step> steps)
+      : n_items_(n_items), steps_(steps), passed_(steps.size()), slots_(n_slots) {}
+
+  void carry() {
     try {
-      for (std::size_t item = 0; take(item);) {
-        work(item, item % n_slots);
-        if (!in_turn(item)) return;
-        consume(item, item % n_slots);
-        {
-          const std::lock_guard lock(mutex);
-          ++consumed;
+      for (std::size_t slot = 0; take(slot);) {
+        for (std::size_t s = 0; s < steps_.size(); ++s) {
+          if (!in_turn(s, slots_.item(slot))) return;
+          steps_[s].run(slots_.item(slot), slot);
+          if (steps_[s].in_order) change([&] { ++passed_[s]; });
         }
-        changed.notify_all();
+        change([&] { slots_.give_back(slot); });
       }
     } catch (...) {
-      {
-        const std::lock_guard lock(mutex);
-        failed = true;
-      }
-      changed.notify_all();
+      change([&] { failed_ = true; });
       throw;
     }
-  });
+  }
+
+ private:
+  bool take(std::size_t& slot) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failed_ || next_ >= n_items_ || slots_.any_free(); });
+    if (failed_ || next_ >= n_items_) return false;
+    slot = slots_.take(next_++);
+    return true;
+  }
+  bool in_turn(std::size_t step, std::size_t item) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return failed_ || !steps_[step].in_order || passed_[step] == item; });
+    return !failed_;
+  }
+  template <class Change>
+  void change(Change&& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      make();
+    }
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::size_t n_items_;
+  std::size_t next_ = 0;
+  bool failed_ = false;
+  std::span<const Step> steps_;
+  std::vector<std::size_t> passed_;  // items through each step in order
+  Slots slots_;
+};
+
+void on_many_threads(std::size_t n_items, std::size_t n_slots, std::span<const Step> steps) {
+  Carriers carriers(n_items, n_slots, steps);
+  on_threads(static_cast<int>(std::min<std::size_t>(thread_count(), n_slots)),
+             [&] { carriers.carry(); });
 }
+
+}  // namespace
 
 #else
 
@@ -146,30 +198,51 @@ void for_ranges(std::size_t n, std::size_t grain,
                     [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
 }
 
-void ordered_pipeline(std::size_t n_items, std::size_t n_slots,
-                      const std::function<void(std::size_t, std::size_t)>& work,
-                      const std::function<void(std::size_t, std::size_t)>& consume) {
-  // Items start and end in order and at most n_slots are alive, so the live ones are consecutive
-  // and item % n_slots is theirs alone.
+namespace {
+
+/// A token is a slot.
+void on_many_threads(std::size_t n_items, std::size_t n_slots, std::span<const Step> steps) {
+  Slots slots(n_slots);
   std::size_t next = 0;
-  const auto start = tbb::make_filter<void, std::size_t>(
-      tbb::filter_mode::serial_in_order, [&](tbb::flow_control& control) -> std::size_t {
-        if (next >= n_items) {
-          control.stop();
-          return 0;
-        }
-        return next++;
-      });
-  const auto middle =
-      tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, [&](std::size_t item) {
-        work(item, item % n_slots);
-        return item;
-      });
+  auto chain = tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order,
+                                                   [&](tbb::flow_control& control) -> std::size_t {
+                                                     if (next >= n_items) {
+                                                       control.stop();
+                                                       return 0;
+                                                     }
+                                                     return slots.take(next++);
+                                                   });
+  for (const Step& step : steps) {
+    chain =
+        chain & tbb::make_filter<std::size_t, std::size_t>(
+                    step.in_order ? tbb::filter_mode::serial_in_order : tbb::filter_mode::parallel,
+                    [&](std::size_t slot) {
+                      step.run(slots.item(slot), slot);
+                      return slot;
+                    });
+  }
   const auto end = tbb::make_filter<std::size_t, void>(
-      tbb::filter_mode::serial_in_order, [&](std::size_t item) { consume(item, item % n_slots); });
-  tbb::parallel_pipeline(n_slots, start & middle & end);
+      tbb::filter_mode::parallel, [&](std::size_t slot) { slots.give_back(slot); });
+  tbb::parallel_pipeline(n_slots, chain & end);
 }
 
+}  // namespace
+
 #endif
+
+std::size_t pipeline_slots() {
+  const auto n_threads = static_cast<std::size_t>(thread_count());
+  return n_threads == 1 ? 1 : 2 * n_threads;
+}
+
+void pipeline(std::size_t n_items, std::size_t n_slots, std::span<const Step> steps) {
+  if (n_items > 1 && n_slots > 1 && thread_count() > 1) {
+    on_many_threads(n_items, n_slots, steps);
+    return;
+  }
+  for (std::size_t item = 0; item < n_items; ++item) {
+    for (const Step& step : steps) step.run(item, 0);
+  }
+}
 
 }  // namespace mc::base

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "extract/row_kernels.hpp"
+#include "extract/plane_bits.hpp"
+#include "extract/shared_planes.hpp"
 #include "extract/surface_sums.hpp"
 #include "extract/vertex_writer.hpp"
 #include "mc/extract.hpp"
@@ -31,7 +33,7 @@ class DenseExtractor {
   DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options);
 
   /// Layers of cells, those to a closed border included.
-  [[nodiscard]] std::int32_t n_layers() const { return n_planes_ - 1; }
+  [[nodiscard]] std::int32_t n_layers() const { return n_layers_; }
   /// Most layers that one slab may have for its ids to fit 32 bits.
   [[nodiscard]] std::int32_t max_layers() const;
   /// The volume's planes [first, second) that layers [l0, l1) need.
@@ -39,6 +41,9 @@ class DenseExtractor {
                                                                  std::int32_t l1) const;
   /// Bytes of scratch.
   [[nodiscard]] std::uint64_t scratch_bytes() const;
+
+  /// Lets slabs of one run classify the planes between them once. `planes` must outlive the run.
+  void share(SharedPlanes* planes) { shared_ = planes; }
 
   /// Makes the surface of layers [l0, l1). `slab` holds at least the planes of planes_for().
   /// Indices in `chunk` count from the slab's first vertex.
@@ -48,47 +53,40 @@ class DenseExtractor {
   void count(const Slab& slab, std::int32_t l0, std::int32_t l1, TaskTotals& totals);
 
  private:
-  /// Bits of one plane and the first ids of its rows.
-  struct Plane {
-    Buffer<std::uint64_t> words;
-    std::vector<std::uint32_t> i_start, j_start;
-  };
+  template <class T, bool Swap>
+  struct VertexPass;
+  static constexpr std::int32_t kNoPlane = -1;
 
-  [[nodiscard]] BitPlane bits(const Plane& plane) const;
-  [[nodiscard]] static PlaneIds ids(Plane& plane);
-  [[nodiscard]] CellLayer layer();
-  [[nodiscard]] std::int32_t pad() const { return capped_ ? 1 : 0; }
-  void classify(const Slab& slab, std::int32_t plane, Plane& out) const;
-  void pad_row(std::uint64_t* row) const;
-  void emit_layer(MeshChunk& chunk);
-  [[nodiscard]] std::uint64_t boundary_edges(std::int32_t layer) const;
+  [[nodiscard]] std::int32_t n_planes() const { return n_layers_ + 1; }
+  /// Planes that gradients look at beyond those of a layer: their bits are made that much earlier.
+  [[nodiscard]] std::int32_t reach() const { return options_.normals == Normals::gradient ? 1 : 0; }
+  PlaneBits& bits(std::int32_t plane) { return planes_[static_cast<std::size_t>(plane) % 3]; }
+  [[nodiscard]] const PlaneBits& bits(std::int32_t plane) const {
+    return planes_[static_cast<std::size_t>(plane) % 3];
+  }
+  void load(const Slab& slab, std::int32_t plane, bool is_shared);
+  [[nodiscard]] std::uint64_t border_sides(std::int32_t layer) const;
+
+  template <class Pass>
+  std::uint32_t write_plane(std::int32_t plane, std::uint32_t next, Pass& pass);
+  template <class Pass>
+  std::uint32_t write_between(std::int32_t layer, const Slab& slab, std::int32_t coming,
+                              std::uint32_t next, Pass& pass);
+  void emit_layer(std::int32_t layer, MeshChunk& chunk);
+  template <class Vertices>
+  [[nodiscard]] LayerSum measure(std::int32_t layer, const Vertices& vertices) const;
   template <class T, bool Swap>
   void extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
                      TaskTotals& totals);
-  template <class R>
-  [[nodiscard]] EdgeList empty_list(EdgeBatch<R>& batch) const;
-  template <class Writer, class Sampler, class R>
-  std::uint32_t write_plane(Plane& plane, std::int32_t p, std::uint32_t next,
-                            const Sampler& sampler, EdgeBatch<R>& batch, Writer& writer) const;
-  template <class Writer, class Sampler, class R>
-  std::uint32_t write_between(std::int32_t p, std::uint32_t next, const Sampler& sampler,
-                              EdgeBatch<R>& batch, Writer& writer);
-  template <class Vertices>
-  [[nodiscard]] LayerSum measure(std::int32_t p, const Vertices& vertices) const;
 
-  SampleType type_;
   Affine to_world_;
   ExtractOptions options_;
   Placement placement_;
-  IndexBox box_;  ///< the region
-  Vec3 apex_;     ///< volumes are summed from here, in lattice units
-  Threshold threshold_;
-  bool capped_;
-  bool above_outside_;  ///< the constant layer of a closed border
-  std::size_t row_samples_, n_rows_, n_words_;
-  std::int32_t n_planes_;
-  Buffer<std::uint64_t> cells_;  ///< ones for the cells of a row
-  Plane lower_, upper_;
+  PlaneClassifier classifier_;
+  Vec3 apex_;  ///< volumes are summed from here, in lattice units
+  std::int32_t n_layers_ = 0;
+  SharedPlanes* shared_ = nullptr;
+  std::array<PlaneBits, 3> planes_;
   std::vector<std::uint32_t> k_start_;
   std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
 };

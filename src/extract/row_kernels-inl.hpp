@@ -102,58 +102,69 @@ std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::
   return next;
 }
 
-/// Writes the places of a row's set bits. Four are written at once whatever their number is: most
+/// Appends the edges of rows to a list. Four are written at once whatever their number is: most
 /// words have fewer, and a loop would be mispredicted at every end.
-template <class Source>
-HWY_INLINE std::int32_t* list_row(const Source& source, std::size_t n_words, std::int32_t first_i,
-                                  std::int32_t* out) {
-  for_each_word(source, n_words, [&](std::size_t w, std::uint64_t word) {
-    const std::int32_t base = first_i + static_cast<std::int32_t>(w * 64);
-    std::int32_t* const end = out + ones(word);
-    for (;;) {
-      for (std::size_t n = 0; n < 4; ++n) {
-        out[n] = base + std::countr_zero(word);
-        word &= word - 1;
-      }
-      if (word == 0) break;
-      out += 4;
-    }
-    out = end;
-  });
-  return out;
-}
+class EdgeLister {
+ public:
+  explicit EdgeLister(EdgeList& list) : list_(list) {}
 
-std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+  template <class Source>
+  HWY_INLINE void row(const Source& source, std::size_t n_words, std::size_t j, std::int32_t axis) {
+    const hn::CappedTag<std::int32_t, kAtOnce> d;
+    const auto all_j = hn::Set(d, list_.first[1] + static_cast<std::int32_t>(j));
+    const auto all_axis = hn::Set(d, axis);
+    for_each_word(source, n_words, [&](std::size_t w, std::uint64_t word) {
+      const std::int32_t base = list_.first[0] + static_cast<std::int32_t>(w * 64);
+      std::size_t at = n_;
+      n_ += ones(word);
+      do {
+        for (std::size_t n = 0; n < kAtOnce; n += hn::Lanes(d)) {
+          hn::StoreU(all_j, d, list_.j + at + n);
+          hn::StoreU(all_axis, d, list_.axis + at + n);
+        }
+        for (std::size_t n = 0; n < kAtOnce; ++n) {
+          list_.i[at++] = base + std::countr_zero(word);
+          word &= word - 1;
+        }
+      } while (word != 0);
+    });
+  }
+  [[nodiscard]] std::uint32_t n() const { return static_cast<std::uint32_t>(n_); }
+  [[nodiscard]] bool has_room(std::size_t for_a_row) const { return n_ + for_a_row <= list_.room; }
+
+ private:
+  static constexpr std::size_t kAtOnce = 4;
+
+  const EdgeList list_;  // a copy, so that what is written cannot alias it
+  std::size_t n_ = 0;
+};
+
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& list) {
-  const std::size_t n_words = plane.words_per_row;
-  const std::uint32_t first_id = next;
-  std::int32_t* out = list.i;
-  const std::int32_t* const last = list.i + (list.room - list_room(plane));
-  for (; j < plane.n_rows && out <= last; ++j) {
-    const auto id = [&] { return first_id + static_cast<std::uint32_t>(out - list.i); };
-    ids.i[j] = id();
-    out = list_row(AlongRow{plane.row(j), plane.cells}, n_words, list.first_i, out);
-    ids.j[j] = id();
+  EdgeLister lister(list);
+  for (; j < j_end && lister.has_room(list_room(plane)); ++j) {
+    ids.i[j] = next + lister.n();
+    lister.row(AlongRow{plane.row(j), plane.cells}, plane.words_per_row, j, 0);
+    ids.j[j] = next + lister.n();
     if (j + 1 < plane.n_rows) {
-      out = list_row(BetweenRows{plane.row(j), plane.row(j + 1)}, n_words, list.first_i, out);
+      lister.row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_per_row, j, 1);
     }
   }
-  list.n = static_cast<std::size_t>(out - list.i);
-  next = first_id + static_cast<std::uint32_t>(list.n);
+  list.n = lister.n();
+  next += lister.n();
   return j;
 }
 
 std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
-                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& list) {
-  const std::uint32_t first_id = next;
-  std::int32_t* out = list.i;
-  const std::int32_t* const last = list.i + (list.room - list_room(lower));
-  for (; j < lower.n_rows && out <= last; ++j) {
-    k_ids[j] = first_id + static_cast<std::uint32_t>(out - list.i);
-    out = list_row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row, list.first_i, out);
+                         std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
+                         EdgeList& list) {
+  EdgeLister lister(list);
+  for (; j < j_end && lister.has_room(list_room(lower)); ++j) {
+    k_ids[j] = next + lister.n();
+    lister.row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row, j, 2);
   }
-  list.n = static_cast<std::size_t>(out - list.i);
-  next = first_id + static_cast<std::uint32_t>(list.n);
+  list.n = lister.n();
+  next += lister.n();
   return j;
 }
 
@@ -194,19 +205,32 @@ struct CornerWords {
   }
 };
 
-/// A row of cells on its way to triangles: eight rows of crossed edges, four of i-edges, then two
-/// each of j- and k-edges, which a cell uses at its bit and at the next.
+/// A row of cells on its way to triangles.
 struct CellRow {
   const std::uint64_t* rows[4];
   const std::uint64_t* cells;
-  std::uint32_t ids[8];  ///< of the first vertex of each row of edges
-
-  CellRow(const CellLayer& l, std::size_t j)
-      : rows{l.lower.row(j), l.lower.row(j + 1), l.upper.row(j), l.upper.row(j + 1)},
-        cells(l.lower.cells),
-        ids{l.lower_ids.i[j], l.lower_ids.i[j + 1], l.upper_ids.i[j], l.upper_ids.i[j + 1],
-            l.lower_ids.j[j], l.upper_ids.j[j],     l.k_ids[j],       l.k_ids[j + 1]} {}
+  const std::uint32_t* ids;  ///< of the first vertex of each row of edges, see pack_ids()
 };
+
+/// Rows of cells that are emitted together.
+constexpr std::size_t kRowsAtOnce = 32;
+constexpr std::size_t kEdgeRows = 8;
+
+/// Eight rows of crossed edges surround a row of cells: four of i-edges, then two each of j- and
+/// k-edges, which a cell uses at its bit and at the next. Their ids are laid side by side a while
+/// before they are read as one vector.
+void pack_ids(const CellLayer& l, std::size_t j0, std::size_t j1, std::uint32_t* out) {
+  for (std::size_t j = j0; j < j1; ++j, out += kEdgeRows) {
+    out[0] = l.lower_ids.i[j];
+    out[1] = l.lower_ids.i[j + 1];
+    out[2] = l.upper_ids.i[j];
+    out[3] = l.upper_ids.i[j + 1];
+    out[4] = l.lower_ids.j[j];
+    out[5] = l.upper_ids.j[j];
+    out[6] = l.k_ids[j];
+    out[7] = l.k_ids[j + 1];
+  }
+}
 
 #if HWY_TARGET == HWY_AVX3_DL
 
@@ -232,7 +256,12 @@ struct LaneTable {
   }
 };
 
-/// Emits the active cells of one row, a cell in about twenty instructions and without a branch on
+const LaneTable& lane_table(bool flip) {
+  static const LaneTable tables[2] = {LaneTable(false), LaneTable(true)};
+  return tables[flip ? 1 : 0];
+}
+
+/// Emits the active cells of a row, a cell in about twenty instructions and without a branch on
 /// its case. Eight lanes hold the words of the eight corners: testing all lanes for one bit is the
 /// case. Eight hold the rows of crossed edges: their ones below the bit, counted by lane, are the
 /// ids at the cell, and with the bit itself the ids at the next. The case's row of the table then
@@ -240,7 +269,7 @@ struct LaneTable {
 /// count.
 class RowEmitter {
  public:
-  explicit RowEmitter(const LaneTable& table) : table_(table.rows) {}
+  explicit RowEmitter(bool flip) : table_(lane_table(flip).rows) {}
 
   std::uint32_t* emit(const CellRow& row, std::size_t n_words, std::uint32_t* out) const {
     const hn::Rebind<std::uint32_t, Words> half;
@@ -306,21 +335,6 @@ class RowEmitter {
   const std::uint8_t (*table_)[16];
 };
 
-const LaneTable& lane_table(bool flip) {
-  static const LaneTable tables[2] = {LaneTable(false), LaneTable(true)};
-  return tables[flip ? 1 : 0];
-}
-
-std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
-                           std::uint32_t* out) {
-  const RowEmitter emitter(lane_table(flip));
-  std::uint32_t* const first = out;
-  for (std::size_t j = j0; j < j1; ++j) {
-    out = emitter.emit(CellRow(layer, j), layer.lower.words_per_row, out);
-  }
-  return static_cast<std::size_t>(out - first);
-}
-
 #else
 
 /// The twelve vertex ids of a cell.
@@ -355,42 +369,65 @@ struct CellIds {
   }
 };
 
-std::uint32_t* emit_row(const CellRow& row, std::size_t n_words, bool flip, std::uint32_t* out) {
-  CellIds cell;
-  std::copy(row.ids, row.ids + 8, cell.next);
-  const std::size_t second = flip ? 2 : 1;
-  const std::size_t third = flip ? 1 : 2;
-  for_each_word(ActiveCells{row.rows, row.cells}, n_words,
-                [&](std::size_t w, std::uint64_t active) {
-                  const CornerWords corners(row.rows, w);
-                  cell.set_words(corners, row.cells[w]);
-                  for (; active != 0; active &= active - 1) {
-                    const auto bit = static_cast<unsigned>(std::countr_zero(active));
-                    std::uint32_t ids[12];
-                    cell.at_bit(bit, ids);
-                    const CaseRow& triangles = kCases[corners.cell_case(bit)];
-                    for (std::size_t t = 0; t < triangles.n_triangles; ++t) {
-                      out[0] = ids[triangles.edges[3 * t]];
-                      out[1] = ids[triangles.edges[3 * t + second]];
-                      out[2] = ids[triangles.edges[3 * t + third]];
-                      out += 3;
-                    }
-                  }
-                  cell.pass_word();
-                });
-  return out;
-}
+class RowEmitter {
+ public:
+  explicit RowEmitter(bool flip) : second_(flip ? 2 : 1), third_(flip ? 1 : 2) {}
+
+  std::uint32_t* emit(const CellRow& row, std::size_t n_words, std::uint32_t* out) const {
+    CellIds cell;
+    std::copy(row.ids, row.ids + kEdgeRows, cell.next);
+    for_each_word(ActiveCells{row.rows, row.cells}, n_words,
+                  [&](std::size_t w, std::uint64_t active) {
+                    const CornerWords corners(row.rows, w);
+                    cell.set_words(corners, row.cells[w]);
+                    out = emit_word(corners, cell, active, out);
+                    cell.pass_word();
+                  });
+    return out;
+  }
+
+ private:
+  std::uint32_t* emit_word(const CornerWords& corners, const CellIds& cell, std::uint64_t active,
+                           std::uint32_t* out) const {
+    for (; active != 0; active &= active - 1) {
+      const auto bit = static_cast<unsigned>(std::countr_zero(active));
+      std::uint32_t ids[12];
+      cell.at_bit(bit, ids);
+      const CaseRow& triangles = kCases[corners.cell_case(bit)];
+      for (std::size_t t = 0; t < triangles.n_triangles; ++t) {
+        out[0] = ids[triangles.edges[3 * t]];
+        out[1] = ids[triangles.edges[3 * t + second_]];
+        out[2] = ids[triangles.edges[3 * t + third_]];
+        out += 3;
+      }
+    }
+    return out;
+  }
+
+  std::size_t second_, third_;
+};
+
+#endif
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
                            std::uint32_t* out) {
+  const RowEmitter emitter(flip);
+  const BitPlane& lower = layer.lower;
+  const BitPlane& upper = layer.upper;
   std::uint32_t* const first = out;
-  for (std::size_t j = j0; j < j1; ++j) {
-    out = emit_row(CellRow(layer, j), layer.lower.words_per_row, flip, out);
+  HWY_ALIGN std::uint32_t ids[kRowsAtOnce * kEdgeRows];
+  for (std::size_t begin = j0; begin < j1; begin += kRowsAtOnce) {
+    const std::size_t end = j1 - begin < kRowsAtOnce ? j1 : begin + kRowsAtOnce;
+    pack_ids(layer, begin, end, ids);
+    for (std::size_t j = begin; j < end; ++j) {
+      const CellRow row{{lower.row(j), lower.row(j + 1), upper.row(j), upper.row(j + 1)},
+                        lower.cells,
+                        ids + (j - begin) * kEdgeRows};
+      out = emitter.emit(row, lower.words_per_row, out);
+    }
   }
   return static_cast<std::size_t>(out - first);
 }
-
-#endif
 
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
   std::uint64_t n = 0;
@@ -407,6 +444,21 @@ std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
                   });
   }
   return n;
+}
+
+std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
+                               const std::uint64_t* cells, std::size_t n_words) {
+  std::uint64_t n = 0;
+  const auto next = [](const std::uint64_t* row, std::size_t w) {
+    return (row[w] >> 1) | (row[w + 1] << 63);
+  };
+  for (std::size_t w = 0; w < n_words; ++w) {
+    const std::uint64_t crossed = a[w] ^ b[w];
+    const std::uint64_t crossed_next = next(a, w) ^ next(b, w);
+    n += ones((a[w] ^ next(a, w)) & cells[w]) + ones((b[w] ^ next(b, w)) & cells[w]) +
+         ones(crossed & cells[w]) + ones(crossed_next & cells[w]);
+  }
+  return n / 2;
 }
 
 }  // namespace HWY_NAMESPACE

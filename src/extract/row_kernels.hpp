@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "extract/bit_row.hpp"
+#include "mc/base.hpp"
 
 // Word arithmetic on sample bits: which edges are crossed, the ids of their vertices, triangles.
 // Compiled for every SIMD target and chosen at run time. A call handles many rows, so that the
@@ -37,24 +38,25 @@ std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const Plan
 std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::uint32_t next,
                              std::uint32_t* k_ids);
 
-/// Crossed edges of some rows: the place in its row of each one's lower sample, counted from
-/// `first_i`, in the order of their vertices.
+/// Crossed edges of some rows in the order of their vertices: lattice indices of the lower sample,
+/// and the axis along which the edge runs.
 struct EdgeList {
-  std::int32_t first_i = 0;
-  std::int32_t* i = nullptr;
+  Index3 first{};  ///< indices of the plane's first sample
+  std::int32_t *i = nullptr, *j = nullptr, *axis = nullptr;
   std::size_t room = 0;  ///< at least list_room(plane); more makes calls rarer
   std::size_t n = 0;
 };
 /// Room that listing needs: two edges a sample of one row, and what is written past the end.
 inline std::size_t list_room(const BitPlane& plane) { return 2 * plane.n_samples + 8; }
 
-/// Numbers and lists i- and j-edges of rows from j on while there is room for one more; `next` is
-/// the first id and becomes the id after the last. Returns the row after the last.
-std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+/// Numbers and lists i- and j-edges of rows [j, j_end) while there is room for one more row; `next`
+/// is the first id and becomes the id after the last. Returns the row after the last.
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& out);
 /// The same for the k-edges between two planes.
 std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
-                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out);
+                         std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
+                         EdgeList& out);
 
 /// One layer of cells: the planes below and above it, and the first ids of their rows.
 struct CellLayer {
@@ -71,5 +73,10 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
                            std::uint32_t* out);
 /// How many triangles the layer has.
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper);
+
+/// Sides of triangles in the faces of cells between two rows of samples: a face has two or four
+/// crossed edges, or none, and half as many sides. One word past the rows can be read.
+std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
+                               const std::uint64_t* cells, std::size_t n_words);
 
 }  // namespace mc::extraction

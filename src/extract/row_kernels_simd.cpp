@@ -25,6 +25,7 @@ HWY_EXPORT(list_plane);
 HWY_EXPORT(list_between);
 HWY_EXPORT(emit_triangles);
 HWY_EXPORT(count_triangles);
+HWY_EXPORT(count_face_sides);
 
 constexpr std::array<std::pair<std::string_view, std::int64_t>, 5> kTargets{
     {{"avx3_dl", HWY_AVX3_DL},
@@ -48,14 +49,15 @@ std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::
   return HWY_DYNAMIC_DISPATCH(number_between)(lower, upper, next, k_ids);
 }
 
-std::size_t list_plane(const BitPlane& plane, std::size_t j, std::uint32_t& next,
+std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& out) {
-  return HWY_DYNAMIC_DISPATCH(list_plane)(plane, j, next, ids, out);
+  return HWY_DYNAMIC_DISPATCH(list_plane)(plane, j, j_end, next, ids, out);
 }
 
 std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size_t j,
-                         std::uint32_t& next, std::uint32_t* k_ids, EdgeList& out) {
-  return HWY_DYNAMIC_DISPATCH(list_between)(lower, upper, j, next, k_ids, out);
+                         std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
+                         EdgeList& out) {
+  return HWY_DYNAMIC_DISPATCH(list_between)(lower, upper, j, j_end, next, k_ids, out);
 }
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
@@ -65,6 +67,11 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
 
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
   return HWY_DYNAMIC_DISPATCH(count_triangles)(lower, upper);
+}
+
+std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
+                               const std::uint64_t* cells, std::size_t n_words) {
+  return HWY_DYNAMIC_DISPATCH(count_face_sides)(a, b, cells, n_words);
 }
 
 bool set_simd_target(std::string_view name) {

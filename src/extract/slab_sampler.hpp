@@ -38,111 +38,142 @@ class SlabSampler {
   IndexBox box_;
 };
 
-/// A row of samples and those it is compared with for gradients: one-sided at the box's border.
+/// Gathers the samples around the edges of a batch.
 template <class T, bool Swap>
-class GradientRow {
+class SlabGatherer {
  public:
   using R = Real<T>;
+  using Sampler = SlabSampler<T, Swap>;
 
-  GradientRow(const SlabSampler<T, Swap>& s, std::int32_t j, std::int32_t k)
-      : lo_i_(s.box().lo[0]), hi_i_(s.box().hi[0]), row_(s.row(j, k)) {
-    const IndexBox& box = s.box();
-    const std::int32_t j0 = std::max(j - 1, box.lo[1]);
-    const std::int32_t j1 = std::min(j + 1, box.hi[1]);
-    const std::int32_t k0 = std::max(k - 1, box.lo[2]);
-    const std::int32_t k1 = std::min(k + 1, box.hi[2]);
-    before_j_ = s.row(j0, k);
-    behind_j_ = s.row(j1, k);
-    before_k_ = s.row(j, k0);
-    behind_k_ = s.row(j, k1);
-    scale_j_ = scale(j0, j1);
-    scale_k_ = scale(k0, k1);
-  }
+  SlabGatherer(const Slab& slab, const Sampler& sampler, const EdgeVertices<T, Sampler>& vertices,
+               bool with_gradients)
+      : stride_(slab.row_stride_bytes),
+        slab_(slab),
+        sampler_(sampler),
+        vertices_(vertices),
+        with_gradients_(with_gradients) {}
 
-  /// EdgeVertices::gradient() at sample i of the row.
-  void at(std::int32_t i, R& gi, R& gj, R& gk) const noexcept {
-    const std::int32_t i0 = std::max(i - 1, lo_i_);
-    const std::int32_t i1 = std::min(i + 1, hi_i_);
-    gi = (sample(row_, i1) - sample(row_, i0)) * scale(i0, i1);
-    gj = (sample(behind_j_, i) - sample(before_j_, i)) * scale_j_;
-    gk = (sample(behind_k_, i) - sample(before_k_, i)) * scale_k_;
+  /// All edges start in plane k and, unless `capped`, lie in the box. Of those that lead out of it
+  /// the samples are zero.
+  void gather(EdgeBatch<R>& batch, std::int32_t k, bool capped) const {
+    if (capped) {
+      for (std::size_t e = 0; e < batch.n; ++e) {
+        if (vertices_.leads_out(batch.edge(e)) == 0) {
+          gather_one(batch, e);
+        } else {
+          clear(batch, e);
+        }
+      }
+      return;
+    }
+    gather_values(batch, k);
+    if (with_gradients_) gather_gradients(batch, k);
   }
-  [[nodiscard]] R value(std::int32_t i) const noexcept { return sample(row_, i); }
 
  private:
-  static R scale(std::int32_t before, std::int32_t behind) {
-    return behind - before == 2 ? R{0.5} : R{1};
+  /// Edges that are asked for before their turn: planes lie too far apart to stay in a core's
+  /// cache.
+  static constexpr std::size_t kAhead = 24;
+
+  static R load(const std::byte* at) {
+    return static_cast<R>(field::number(field::load_sample<T, Swap>(at)));
   }
-  static R sample(const std::byte* row, std::int32_t i) noexcept {
-    return static_cast<R>(
-        field::number(field::load_sample<T, Swap>(row + static_cast<std::size_t>(i) * sizeof(T))));
+  [[nodiscard]] const std::byte* plane(std::int32_t k) const {
+    return slab_.planes[static_cast<std::size_t>(k - slab_.k0)];
+  }
+  [[nodiscard]] std::size_t offset(std::int32_t i, std::int32_t j) const {
+    return static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(i) * sizeof(T);
   }
 
-  std::int32_t lo_i_, hi_i_;
-  const std::byte *row_, *before_j_, *behind_j_, *before_k_, *behind_k_;
-  R scale_j_, scale_k_;
-};
+  void gather_values(EdgeBatch<R>& batch, std::int32_t k) const {
+    const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
+    const std::int32_t* const axis = batch.axis.data();
+    R *const a = batch.a.data(), *const b = batch.b.data();
+    const std::byte* const lower = plane(k);
+    const bool between = axis[0] == 2;
+    const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_),
+                                        between ? plane(k + 1) - lower : 0};
+    for (std::size_t e = 0; e < batch.n; ++e) {
+      const std::byte* const at = lower + offset(i[e], j[e]);
+      a[e] = load(at);
+      b[e] = load(at + to_upper[axis[e]]);
+    }
+  }
 
-/// Gathers the samples around edges [first, last) of a batch, which all start in row (j, k) and run
-/// along `axis`; their i is already there.
-template <class T, bool Swap>
-void gather_run(const SlabSampler<T, Swap>& s, EdgeBatch<Real<T>>& batch, std::size_t first,
-                std::size_t last, std::int32_t j, std::int32_t k, std::int32_t axis,
-                bool with_gradients) {
-  using R = Real<T>;
-  const std::size_t n = last - first;
-  const auto fill = [&](auto& buffer, auto value) {
-    std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(first), n, value);
-  };
-  fill(batch.j, j);
-  fill(batch.k, k);
-  fill(batch.axis, axis);
-  const IndexBox& box = s.box();
-  const std::int32_t j2 = j + (axis == 1 ? 1 : 0);
-  const std::int32_t k2 = k + (axis == 2 ? 1 : 0);
-  const std::int32_t di = axis == 0 ? 1 : 0;
-  const auto clear = [&](std::size_t from, std::size_t to) {
-    for (std::size_t e = from; e < to; ++e) {
-      batch.a[e] = batch.b[e] = R{};
-      for (std::size_t a = 0; a < 3 && with_gradients; ++a) {
-        batch.lower_gradient[a][e] = batch.upper_gradient[a][e] = R{};
+  void gather_one(EdgeBatch<R>& batch, std::size_t e) const {
+    const LatticeEdge edge = batch.edge(e);
+    const Index3 upper = step(edge.lower, edge.axis);
+    batch.a[e] = sampler_.at(edge.lower);
+    batch.b[e] = sampler_.at(upper);
+    if (with_gradients_) gather_gradients_of(batch, e);
+  }
+
+  void gather_gradients_of(EdgeBatch<R>& batch, std::size_t e) const {
+    const LatticeEdge edge = batch.edge(e);
+    const std::array<R, 3> lower = vertices_.gradient(edge.lower);
+    const std::array<R, 3> upper = vertices_.gradient(step(edge.lower, edge.axis));
+    for (std::size_t a = 0; a < 3; ++a) {
+      batch.lower_gradient[a][e] = lower[a];
+      batch.upper_gradient[a][e] = upper[a];
+    }
+  }
+
+  void clear(EdgeBatch<R>& batch, std::size_t e) const {
+    batch.a[e] = batch.b[e] = R{};
+    for (std::size_t a = 0; a < 3 && with_gradients_; ++a) {
+      batch.lower_gradient[a][e] = batch.upper_gradient[a][e] = R{};
+    }
+  }
+
+  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k) const {
+    const IndexBox& box = sampler_.box();
+    const bool between = batch.axis[0] == 2;
+    if (k <= box.lo[2] || k + (between ? 1 : 0) >= box.hi[2]) {
+      for (std::size_t e = 0; e < batch.n; ++e) gather_gradients_of(batch, e);
+      return;
+    }
+    const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
+    const std::int32_t* const axis = batch.axis.data();
+    R* const lower[3] = {batch.lower_gradient[0].data(), batch.lower_gradient[1].data(),
+                         batch.lower_gradient[2].data()};
+    R* const upper[3] = {batch.upper_gradient[0].data(), batch.upper_gradient[1].data(),
+                         batch.upper_gradient[2].data()};
+    const std::byte* const here = plane(k);
+    const std::ptrdiff_t before = plane(k - 1) - here;
+    const std::ptrdiff_t behind = plane(k + 1) - here;
+    const std::ptrdiff_t upper_before = between ? -behind : before;
+    const std::ptrdiff_t upper_behind = between ? plane(k + 2) - plane(k + 1) : behind;
+    const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_), behind};
+    // An edge whose ends both have neighbours on all sides; unsigned, so that one test is enough.
+    const auto inner_i = static_cast<std::uint32_t>(box.extent(0) - 3);
+    const auto inner_j = static_cast<std::uint32_t>(box.extent(1) - 3);
+    for (std::size_t e = 0; e < batch.n; ++e) {
+      if (static_cast<std::uint32_t>(i[e] - box.lo[0] - 1) >= inner_i ||
+          static_cast<std::uint32_t>(j[e] - box.lo[1] - 1) >= inner_j) {
+        gather_gradients_of(batch, e);
+        continue;
       }
+      const std::size_t later = std::min(e + kAhead, batch.n - 1);
+      const std::byte* const next = here + offset(i[later], j[later]);
+      __builtin_prefetch(next + before);
+      __builtin_prefetch(next + behind);
+      __builtin_prefetch(next + (between ? behind + upper_behind : 0));
+      const std::byte* const a = here + offset(i[e], j[e]);
+      const std::byte* const b = a + to_upper[axis[e]];
+      lower[0][e] = (load(a + sizeof(T)) - load(a - sizeof(T))) * R{0.5};
+      lower[1][e] = (load(a + stride_) - load(a - stride_)) * R{0.5};
+      lower[2][e] = (load(a + behind) - load(a + before)) * R{0.5};
+      upper[0][e] = (load(b + sizeof(T)) - load(b - sizeof(T))) * R{0.5};
+      upper[1][e] = (load(b + stride_) - load(b - stride_)) * R{0.5};
+      upper[2][e] = (load(b + upper_behind) - load(b + upper_before)) * R{0.5};
     }
-  };
-  // Edges that lead out of the box: whole rows of them, or the ends of a row along i.
-  if (j < box.lo[1] || k < box.lo[2] || j2 > box.hi[1] || k2 > box.hi[2]) {
-    clear(first, last);
-    return;
   }
-  if (first < last && batch.i[first] < box.lo[0]) {
-    clear(first, first + 1);
-    ++first;
-  }
-  if (first < last && batch.i[last - 1] + di > box.hi[0]) {
-    clear(last - 1, last);
-    --last;
-  }
-  const std::int32_t* i = batch.i.data();
-  if (with_gradients) {
-    const GradientRow<T, Swap> lower(s, j, k);
-    const GradientRow<T, Swap> upper(s, j2, k2);
-    auto& g = batch.lower_gradient;
-    auto& h = batch.upper_gradient;
-    for (std::size_t e = first; e < last; ++e) {
-      batch.a[e] = lower.value(i[e]);
-      batch.b[e] = upper.value(i[e] + di);
-      lower.at(i[e], g[0][e], g[1][e], g[2][e]);
-      upper.at(i[e] + di, h[0][e], h[1][e], h[2][e]);
-    }
-    return;
-  }
-  const std::byte* const lower = s.row(j, k);
-  const std::byte* const upper = s.row(j2, k2) + static_cast<std::size_t>(di) * sizeof(T);
-  for (std::size_t e = first; e < last; ++e) {
-    const std::size_t at = static_cast<std::size_t>(i[e]) * sizeof(T);
-    batch.a[e] = static_cast<R>(field::number(field::load_sample<T, Swap>(lower + at)));
-    batch.b[e] = static_cast<R>(field::number(field::load_sample<T, Swap>(upper + at)));
-  }
-}
+
+  std::size_t stride_;
+  const Slab& slab_;
+  const Sampler& sampler_;
+  const EdgeVertices<T, Sampler>& vertices_;
+  bool with_gradients_;
+};
 
 }  // namespace mc::extraction

@@ -33,4 +33,14 @@ void MeshChunk::clear() {
   indices.clear();
 }
 
+void MeshSink::set_slots(std::size_t /*n_slots*/) {}
+void MeshSink::format(const MeshChunk& /*chunk*/, std::size_t /*slot*/) {}
+void MeshSink::write(const MeshChunk& /*chunk*/, std::size_t /*slot*/) {}
+
+void MeshSink::put(const MeshChunk& chunk) {
+  format(chunk, 0);
+  place(chunk, 0);
+  write(chunk, 0);
+}
+
 }  // namespace mc

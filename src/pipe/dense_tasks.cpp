@@ -37,7 +37,11 @@ class DenseTasks final : public TaskList {
                     (options.extract.normals == Normals::none ? 0 : 12);
   }
 
-  void set_slots(std::size_t n_slots) override { slots_.assign(n_slots, prototype_); }
+  void set_slots(std::size_t n_slots) override {
+    slots_.assign(n_slots, prototype_);
+    shared_.reset(2 * (n_slots + 1));
+    for (Slot& slot : slots_) slot.extractor.share(&shared_);
+  }
   [[nodiscard]] std::size_t n_tasks() const override {
     return static_cast<std::size_t>((extractor().n_layers() + layers_ - 1) / layers_);
   }
@@ -85,6 +89,7 @@ class DenseTasks final : public TaskList {
   const SlabReader& reader_;
   Slot prototype_;
   std::vector<Slot> slots_;
+  extraction::SharedPlanes shared_;
   std::int32_t layers_ = 1;
   std::uint64_t plane_samples_ = 0;
   std::uint64_t plane_bytes_ = 0;

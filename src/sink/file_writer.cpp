@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "sink/file_writer.hpp"
 
+#include <sys/sendfile.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <cstring>
@@ -51,6 +53,35 @@ void FileWriter::append(std::span<const std::byte> bytes) {
   buffered_ += bytes.size();
 }
 
+/// Bytes of `from` that the kernel has copied to where the next go; whatever keeps it from the rest
+/// will be met, and told, by who copies that.
+std::uint64_t FileWriter::copied_by_kernel(const FileWriter& from) const {
+  constexpr std::size_t kMost = std::size_t{1} << 30;
+  off_t in = 0;
+  auto out = static_cast<off_t>(flushed_);
+  while (static_cast<std::uint64_t>(in) < from.flushed_) {
+    const ssize_t n = offsets_ ? ::copy_file_range(from.fd_, &in, fd_, &out, kMost, 0)
+                               : ::sendfile(fd_, from.fd_, &in, kMost);
+    if (n == 0 || (n < 0 && errno != EINTR)) break;
+  }
+  return static_cast<std::uint64_t>(in);
+}
+
+void FileWriter::append_file(FileWriter& from) {
+  flush();
+  from.flush();
+  std::uint64_t at = copied_by_kernel(from);
+  flushed_ += at;
+  const std::uint64_t n_bytes = from.size();
+  Buffer<std::byte> block(
+      static_cast<std::size_t>(std::min<std::uint64_t>(kBufferBytes, n_bytes - at)));
+  for (; at < n_bytes; at += block.size()) {
+    block.resize(static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), n_bytes - at)));
+    from.read(at, block);
+    append(block);
+  }
+}
+
 void FileWriter::flush() {
   put(flushed_, {buffer_.get(), buffered_});
   flushed_ += std::exchange(buffered_, 0);
@@ -64,6 +95,11 @@ void FileWriter::write_at(std::uint64_t offset, std::span<const std::byte> bytes
   put(offset, bytes);
 }
 
+void FileWriter::put_at(std::uint64_t offset, std::span<const std::byte> bytes) const {
+  assert(offsets_);
+  put(offset, bytes);
+}
+
 void FileWriter::skip(std::uint64_t n_bytes) {
   assert(offsets_);
   flush();
@@ -71,8 +107,12 @@ void FileWriter::skip(std::uint64_t n_bytes) {
 }
 
 void FileWriter::read(std::uint64_t offset, std::span<std::byte> bytes) {
-  assert(offsets_ && offset + bytes.size() <= size());
   flush();
+  read_flushed(offset, bytes);
+}
+
+void FileWriter::read_flushed(std::uint64_t offset, std::span<std::byte> bytes) const {
+  assert(offsets_ && offset + bytes.size() <= flushed_);
   while (!bytes.empty()) {
     const ssize_t n = ::pread(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) {
@@ -95,7 +135,7 @@ void FileWriter::close() {
   }
 }
 
-void FileWriter::put(std::uint64_t offset, std::span<const std::byte> bytes) {
+void FileWriter::put(std::uint64_t offset, std::span<const std::byte> bytes) const {
   while (!bytes.empty()) {
     const ssize_t n = offsets_
                           ? ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset))

@@ -29,20 +29,28 @@ class FileWriter {
   FileWriter& operator=(const FileWriter&) = delete;
 
   [[nodiscard]] int fd() const { return fd_; }
+  [[nodiscard]] bool has_offsets() const { return offsets_; }
   [[nodiscard]] std::uint64_t size() const { return flushed_ + buffered_; }
   [[nodiscard]] const std::string& place() const { return place_; }
 
   void append(std::span<const std::byte> bytes);
+  /// Appends all of `from`, which was made with `offsets`; the kernel copies where it can.
+  void append_file(FileWriter& from);
   void flush();
   /// Preconditions of these: made with `offsets`.
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+  /// The same from any thread, where the buffer holds nothing for these bytes' place.
+  void put_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
   void skip(std::uint64_t n_bytes);
   void read(std::uint64_t offset, std::span<std::byte> bytes);
+  /// The same from any thread, where nothing is left in the buffer.
+  void read_flushed(std::uint64_t offset, std::span<std::byte> bytes) const;
   /// Flushes and closes; a network file system may only now say that it is full.
   void close();
 
  private:
-  void put(std::uint64_t offset, std::span<const std::byte> bytes);
+  void put(std::uint64_t offset, std::span<const std::byte> bytes) const;
+  [[nodiscard]] std::uint64_t copied_by_kernel(const FileWriter& from) const;
 
   int fd_;
   bool offsets_;

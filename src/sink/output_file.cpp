@@ -201,6 +201,8 @@ std::string OutputFile::scratch_folder() const {
   return tmpdir != nullptr && *tmpdir != '\0' ? tmpdir : "/tmp";
 }
 
+FileWriter& OutputFile::writer() { return *state_->writer; }
+
 void OutputFile::append(std::span<const std::byte> bytes) { state_->writer->append(bytes); }
 
 void OutputFile::append(std::string_view text) {

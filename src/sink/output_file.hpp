@@ -14,6 +14,8 @@
 
 namespace mc::sink {
 
+class FileWriter;
+
 class OutputFile {
  public:
   struct Options {
@@ -47,6 +49,8 @@ class OutputFile {
   void write_at(std::uint64_t offset, std::span<const std::byte> bytes);
   /// Moves the end on by bytes that write_at() fills. Precondition: seekable().
   void skip(std::uint64_t n_bytes);
+  /// What lies below, for the parts of an output.
+  [[nodiscard]] FileWriter& writer();
   /// Moves the bytes from `offset` to the end up by `n_bytes`; what lies between is to be
   /// overwritten. Precondition: seekable(). Cost: reads and writes all of them once.
   void shift(std::uint64_t offset, std::uint64_t n_bytes);
@@ -76,8 +80,10 @@ class SpoolFile {
   /// Fills `bytes` with what was appended at `offset` (reading takes no address space).
   /// Precondition: offset + bytes.size() <= size().
   void read(std::uint64_t offset, std::span<std::byte> bytes);
-  /// Appends all of it to `out`, block by block.
+  /// Appends all of it to `out`.
   void copy_to(OutputFile& out);
+  /// What lies below, for the parts of an output.
+  [[nodiscard]] FileWriter& writer();
 
  private:
   struct State;

@@ -5,61 +5,61 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
-#include <span>
-#include <string>
 
 #include "mc/mesh.hpp"
 
-// Chunks to records of bytes, block by block: a block is as large as what the file layer passes on
-// unbuffered, and no larger, whatever the size of the chunk.
+// Chunks to records of bytes and to lines of text, in memory that is used again for the next.
 
 namespace mc::sink {
 
 static_assert(std::endian::native == std::endian::little, "every binary format here is so");
 
-constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
-
-/// Puts records 0..n-1 of `stride` bytes: encode(i, at) fills one, put(block) takes them in order.
-template <class Encode, class Put>
-void put_records(std::size_t n, std::size_t stride, Buffer<std::byte>& scratch, Encode encode,
-                 Put put) {
-  const std::size_t per_block = (kBlockBytes + stride - 1) / stride;
-  for (std::size_t first = 0; first < n; first += per_block) {
-    const std::size_t last = std::min(n, first + per_block);
-    scratch.resize((last - first) * stride);
-    std::byte* at = scratch.data();
-    for (std::size_t i = first; i < last; ++i, at += stride) {
-      encode(i, at);
-    }
-    put(std::span<const std::byte>(scratch));
+/// Fills `to` with records 0..n-1 of `stride` bytes: encode(i, at) makes one.
+template <class Encode>
+void make_records(std::size_t n, std::size_t stride, Buffer<std::byte>& to, Encode encode) {
+  to.resize(n * stride);
+  std::byte* at = to.data();
+  for (std::size_t i = 0; i < n; ++i, at += stride) {
+    encode(i, at);
   }
 }
 
-/// The same for lines of text; print(i, text) appends line i.
-template <class Print, class Put>
-void put_lines(std::size_t n, std::string& scratch, Print print, Put put) {
-  scratch.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    print(i, scratch);
-    if (scratch.size() >= kBlockBytes) {
-      put(std::as_bytes(std::span<const char>(scratch)));
-      scratch.clear();
+/// Fills `to` with lines 0..n-1 of at most `most_bytes` each: print(i, at) writes one and returns
+/// its end.
+template <class Print>
+void make_lines(std::size_t n, std::size_t most_bytes, Buffer<std::byte>& to, Print print) {
+  constexpr std::size_t kAtOnce = 64;  // lines for which room is made
+  to.resize(to.capacity());
+  std::size_t size = 0;
+  for (std::size_t first = 0; first < n; first += kAtOnce) {
+    if (to.size() - size < kAtOnce * most_bytes) {
+      to.resize(std::max(size + kAtOnce * most_bytes, 2 * to.size()));
     }
+    char* const begin = reinterpret_cast<char*>(to.data());
+    char* at = begin + size;
+    for (std::size_t i = first; i < std::min(n, first + kAtOnce); ++i) {
+      at = print(i, at);
+    }
+    size = static_cast<std::size_t>(at - begin);
   }
-  put(std::as_bytes(std::span<const char>(scratch)));
+  to.resize(size);
 }
 
-/// Positions (f32 or f64, as they came), then the normal where `with_normals`.
-inline void encode_vertex(const MeshChunk& chunk, bool with_normals, std::size_t i, std::byte* at) {
+/// Positions (f32 or f64, as they came), then normals where there are some: interleaved records.
+inline void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to) {
+  const auto interleave = [&](const auto& positions) {
+    constexpr std::size_t kPosition = 3 * sizeof positions[0];
+    constexpr std::size_t kNormal = 3 * sizeof(float);
+    make_records(chunk.n_vertices(), kPosition + kNormal, to,
+                 [p = positions.data(), n = chunk.normals.data()](std::size_t i, std::byte* at) {
+                   std::memcpy(at, p + 3 * i, kPosition);
+                   std::memcpy(at + kPosition, n + 3 * i, kNormal);
+                 });
+  };
   if (chunk.positions_f64.empty()) {
-    std::memcpy(at, &chunk.positions[3 * i], 3 * sizeof(float));
-    at += 3 * sizeof(float);
+    interleave(chunk.positions);
   } else {
-    std::memcpy(at, &chunk.positions_f64[3 * i], 3 * sizeof(double));
-    at += 3 * sizeof(double);
-  }
-  if (with_normals) {
-    std::memcpy(at, &chunk.normals[3 * i], 3 * sizeof(float));
+    interleave(chunk.positions_f64);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cassert>
 #include <cstdlib>
 #include <utility>
@@ -80,15 +79,8 @@ void SpoolFile::read(std::uint64_t offset, std::span<std::byte> bytes) {
   state_->writer->read(offset, bytes);
 }
 
-void SpoolFile::copy_to(OutputFile& out) {
-  const std::uint64_t n_bytes = size();
-  Buffer<std::byte> block(static_cast<std::size_t>(std::min<std::uint64_t>(kBufferBytes, n_bytes)));
-  for (std::uint64_t at = 0; at < n_bytes; at += block.size()) {
-    const std::uint64_t n = std::min<std::uint64_t>(block.size(), n_bytes - at);
-    const std::span<std::byte> part = std::span(block).first(static_cast<std::size_t>(n));
-    read(at, part);
-    out.append(part);
-  }
-}
+void SpoolFile::copy_to(OutputFile& out) { out.writer().append_file(*state_->writer); }
+
+FileWriter& SpoolFile::writer() { return *state_->writer; }
 
 }  // namespace mc::sink

@@ -1,31 +1,51 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
+
+#include "sink/shortest.hpp"
 
 // Numbers and lines of text formats. std::to_chars knows no locale and prints the shortest text
 // that reads back as the same number.
 
 namespace mc::sink {
 
-template <class Number>
-void append_number(std::string& to, Number value) {
-  std::array<char, 32> digits;  // the longest: "-1.2345678901234567e-308", 20 digits of 64 bits
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  to.append(digits.data(), end);
+/// The longest number: "-1.2345678901234567e-308"; 64 bits have 20 digits.
+constexpr std::size_t kMostDigits = 24;
+
+/// These write at `at`, where there is room for so many, and return the end of what they wrote.
+inline char* print_number(char* at, double value) {
+  return std::to_chars(at, at + kMostDigits, value).ptr;
+}
+inline char* print_number(char* at, float value) {
+  return is_in_fast_range(value) ? print_shortest(at, value)
+                                 : std::to_chars(at, at + kMostDigits, value).ptr;
+}
+inline char* print_number(char* at, std::uint64_t value) {
+  return value < kFastIntegers ? print_small(at, static_cast<std::uint32_t>(value))
+                               : std::to_chars(at, at + kMostDigits, value).ptr;
 }
 
-/// Appends `separator` and a number, three times.
-template <class Number>
-void append_triple(std::string& to, const Number* xyz, char separator = ' ') {
-  for (int a = 0; a < 3; ++a) {
-    to += separator;
-    append_number(to, xyz[a]);
-  }
+inline char* print_text(char* at, std::string_view text) {
+  std::memcpy(at, text.data(), text.size());
+  return at + text.size();
 }
+
+/// Three numbers with a space between them.
+template <class Number>
+char* print_triple(char* at, const Number* xyz) {
+  at = print_number(at, xyz[0]);
+  *at++ = ' ';
+  at = print_number(at, xyz[1]);
+  *at++ = ' ';
+  return print_number(at, xyz[2]);
+}
+constexpr std::size_t kMostTriple = 3 * kMostDigits + 2;
 
 /// `text` with every control character made a space, so that it stays on its line.
 inline std::string on_one_line(std::string_view text) {

@@ -66,7 +66,9 @@ class ArraySlabs final : public SlabReader {
 class DroppingSink final : public MeshSink {
  public:
   void begin_object(const MeshObject& /*object*/) override {}
-  void write(const MeshChunk& chunk) override { benchmark::DoNotOptimize(chunk.indices.data()); }
+  void place(const MeshChunk& chunk, std::size_t /*slot*/) override {
+    benchmark::DoNotOptimize(chunk.indices.data());
+  }
   void end_object(const MeshTotals& /*totals*/) override {}
   void finish() override {}
 };

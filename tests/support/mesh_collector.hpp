@@ -30,7 +30,7 @@ class CollectingSink final : public MeshSink {
     out_.object = object;
     ++out_.n_objects;
   }
-  void write(const MeshChunk& chunk) override {
+  void place(const MeshChunk& chunk, std::size_t /*slot*/) override {
     append(chunk.positions, out_.mesh.positions);
     append(chunk.positions_f64, out_.positions_f64);
     append(chunk.normals, out_.mesh.normals);
@@ -45,7 +45,7 @@ class CollectingSink final : public MeshSink {
 
  private:
   template <class T>
-  static void append(const Buffer<T>& from, std::vector<std::array<T, 3>>& to) {
+  static void append(const Buffer<T>& from, auto& to) {
     for (std::size_t n = 0; n < from.size(); n += 3) {
       to.push_back({from[n], from[n + 1], from[n + 2]});
     }

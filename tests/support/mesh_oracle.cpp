@@ -174,7 +174,7 @@ void MeshOracle::count_components() {
 
 MeshSoup to_soup(const Mesh& mesh) {
   MeshSoup soup;
-  soup.normals = mesh.normals;
+  soup.normals.assign(mesh.normals.begin(), mesh.normals.end());
   for (const auto& p : mesh.positions) {
     soup.positions.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
   }

@@ -14,6 +14,7 @@
 #include "sink/gltf/gltf_json.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
+#include "sink/part.hpp"
 #include "sink/records.hpp"
 
 // glTF 2.0 (Khronos; ISO/IEC 12113): per object one interleaved view of positions and normals, then
@@ -67,27 +68,37 @@ std::span<const std::byte> bytes_of(const std::string& text) {
   return std::as_bytes(std::span<const char>(text));
 }
 
+std::array<float, 3> filled(float x) { return {x, x, x}; }
+
 class GltfSink final : public MeshSink {
  public:
   GltfSink(const std::string& path, const SinkOptions& options, bool is_glb);
 
+  void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void format(const MeshChunk& chunk, std::size_t slot) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
+  void write(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
  private:
   void reserve_json(const GltfObject& first);
   void check_limits(const ObjectCounts& counts) const;
-  void write_vertices(const MeshChunk& chunk);
-  void write_indices(const MeshChunk& chunk);
-  void put_indices(std::span<const std::byte> ids);
+  void make_indices(const MeshChunk& chunk, Piece& piece) const;
   void take_spooled_indices();
+  void shorten_spooled_indices();
   void finish_glb();
   void finish_gltf();
-  void put_body(std::span<const std::byte> bytes);
   void pad_body();
-  [[nodiscard]] std::uint64_t body_size() const;
+  /// The file that the buffer goes into.
+  [[nodiscard]] FileWriter& body_file();
+  [[nodiscard]] std::uint64_t body_size();
+
+  struct Slot {
+    Piece vertices, indices;
+    std::array<float, 3> lo{}, hi{};  // of the chunk's positions
+  };
 
   SinkOptions options_;
   bool is_glb_;
@@ -99,9 +110,9 @@ class GltfSink final : public MeshSink {
   std::vector<GltfObject> objects_;
   MeshObject object_;
   ObjectCounts counts_;
-  std::optional<SpoolFile> indices_;  // u32; unless their place and type are known
-  std::uint64_t indices_at_ = 0;      // where the next goes, unless spooled
-  Buffer<std::byte> block_;
+  std::optional<SpoolFile> index_spool_;  // u32; unless their place and type are known
+  std::optional<Part> vertices_, indices_;
+  std::vector<Slot> slots_{1};
 };
 
 GltfSink::GltfSink(const std::string& path, const SinkOptions& options, bool is_glb)
@@ -117,21 +128,16 @@ GltfSink::GltfSink(const std::string& path, const SinkOptions& options, bool is_
   }
 }
 
-std::uint64_t GltfSink::body_size() const {
-  return body_ ? body_->size() : bin_ ? bin_->size() : main_.size() - body_at_;
+FileWriter& GltfSink::body_file() {
+  return body_ ? body_->writer() : (bin_ ? *bin_ : main_).writer();
 }
 
-void GltfSink::put_body(std::span<const std::byte> bytes) {
-  if (body_) {
-    body_->append(bytes);
-  } else {
-    (bin_ ? *bin_ : main_).append(bytes);
-  }
-}
+std::uint64_t GltfSink::body_size() { return body_file().size() - body_at_; }
 
 void GltfSink::pad_body() {
   constexpr std::array<std::byte, 4> kZeros{};
-  put_body(std::span(kZeros).first(static_cast<std::size_t>(aligned(body_size()) - body_size())));
+  const std::uint64_t n_bytes = aligned(body_size()) - body_size();
+  body_file().append(std::span(kZeros).first(static_cast<std::size_t>(n_bytes)));
 }
 
 /// Keeps room for JSON with one object like `first` and the longest numbers there are.
@@ -177,8 +183,8 @@ void GltfSink::begin_object(const MeshObject& object) {
   made.name = object.name;
   made.origin = object.origin;
   made.has_normals = object.has_normals;
-  made.lo.fill(std::numeric_limits<float>::infinity());
-  made.hi.fill(-std::numeric_limits<float>::infinity());
+  made.lo = filled(std::numeric_limits<float>::infinity());
+  made.hi = filled(-std::numeric_limits<float>::infinity());
   if (is_glb_ && objects_.empty()) {
     reserve_json(made);
   }
@@ -186,98 +192,95 @@ void GltfSink::begin_object(const MeshObject& object) {
   made.vertices_at = body_size();
   objects_.push_back(made);
   check_limits({object.n_vertices.value_or(0), object.n_triangles.value_or(0)});
-  indices_.reset();
+  vertices_.emplace(body_file(), body_file().size());
   if (body_ || !counts_known(object)) {
-    indices_.emplace(main_);
+    indices_.emplace(index_spool_.emplace(main_).writer(), 0);
   } else {
     objects_.back().n_vertices = *object.n_vertices;
-    indices_at_ = made.vertices_at + *object.n_vertices * made.vertex_bytes();
+    indices_.emplace(body_file(), body_file().size() + *object.n_vertices * made.vertex_bytes());
   }
 }
 
-void GltfSink::write_vertices(const MeshChunk& chunk) {
-  GltfObject& object = objects_.back();
-  auto lo = object.lo, hi = object.hi;  // local, so that they stay in registers
-  for (std::size_t i = 0; i < chunk.n_vertices(); ++i) {
+/// In the type they get, where that is known, else u32.
+void GltfSink::make_indices(const MeshChunk& chunk, Piece& piece) const {
+  const auto encode = [&]<class Index>(Index /*tag*/) {
+    make_records(chunk.indices.size(), sizeof(Index), piece.made,
+                 [base = static_cast<std::uint32_t>(chunk.index_base), ids = chunk.indices.data()](
+                     std::size_t i, std::byte* at) {
+                   const auto id = static_cast<Index>(base + ids[i]);
+                   std::memcpy(at, &id, sizeof id);
+                 });
+  };
+  if (!index_spool_ && objects_.back().has_short_indices()) {
+    encode(std::uint16_t{});
+  } else {
+    encode(std::uint32_t{});
+  }
+  piece.take_made();
+}
+
+void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
+  Slot& s = slots_[slot];
+  auto lo = filled(std::numeric_limits<float>::infinity());  // local: they stay in registers
+  auto hi = filled(-std::numeric_limits<float>::infinity());
+  for (std::size_t i = 0; i < chunk.positions.size(); i += 3) {
     for (std::size_t a = 0; a < 3; ++a) {
-      const float x = chunk.positions[3 * i + a] + 0.0F;  // no negative zero
+      const float x = chunk.positions[i + a] + 0.0F;  // no negative zero
       lo[a] = std::min(lo[a], x);
       hi[a] = std::max(hi[a], x);
     }
   }
-  object.lo = lo;
-  object.hi = hi;
-  put_records(
-      chunk.n_vertices(), static_cast<std::size_t>(object.vertex_bytes()), block_,
-      [&](std::size_t i, std::byte* at) { encode_vertex(chunk, object.has_normals, i, at); },
-      [this](std::span<const std::byte> bytes) { put_body(bytes); });
-}
-
-/// Puts u32 indices where they belong, in the type they get.
-void GltfSink::put_indices(std::span<const std::byte> ids) {
-  OutputFile& out = bin_ ? *bin_ : main_;
-  out.write_at(body_at_ + indices_at_, ids);
-  indices_at_ += ids.size();
-}
-
-void GltfSink::write_indices(const MeshChunk& chunk) {
-  const auto id = [&](std::size_t i) {
-    return static_cast<std::uint32_t>(chunk.index_base + chunk.indices[i]);
-  };
-  if (!indices_ && objects_.back().has_short_indices()) {
-    put_records(
-        chunk.indices.size(), sizeof(std::uint16_t), block_,
-        [&](std::size_t i, std::byte* at) {
-          const auto small = static_cast<std::uint16_t>(id(i));
-          std::memcpy(at, &small, sizeof small);
-        },
-        [this](std::span<const std::byte> bytes) { put_indices(bytes); });
-    return;
+  s.lo = lo;
+  s.hi = hi;
+  if (object_.has_normals) {
+    make_vertices(chunk, s.vertices.made);
+    s.vertices.take_made();
+  } else {
+    s.vertices.take(chunk.positions);
   }
-  put_records(
-      chunk.indices.size(), sizeof(std::uint32_t), block_,
-      [&](std::size_t i, std::byte* at) {
-        const std::uint32_t large = id(i);
-        std::memcpy(at, &large, sizeof large);
-      },
-      [this](std::span<const std::byte> bytes) {
-        if (indices_) {
-          indices_->append(bytes);
-        } else {
-          put_indices(bytes);
-        }
-      });
+  make_indices(chunk, s.indices);
 }
 
-void GltfSink::write(const MeshChunk& chunk) {
-  assert(!objects_.empty());
+void GltfSink::place(const MeshChunk& chunk, std::size_t slot) {
+  Slot& s = slots_[slot];
   counts_.add(object_, chunk);
   check_limits(counts_);
-  write_vertices(chunk);
-  write_indices(chunk);
+  GltfObject& object = objects_.back();
+  for (std::size_t a = 0; a < 3; ++a) {
+    object.lo[a] = std::min(object.lo[a], s.lo[a]);
+    object.hi[a] = std::max(object.hi[a], s.hi[a]);
+  }
+  vertices_->place(s.vertices);
+  indices_->place(s.indices);
+}
+
+void GltfSink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
+  vertices_->write(slots_[slot].vertices);
+  indices_->write(slots_[slot].indices);
 }
 
 /// Appends the spooled indices to the buffer, in the type that turned out to fit.
 void GltfSink::take_spooled_indices() {
-  const bool is_short = objects_.back().has_short_indices();
+  if (objects_.back().has_short_indices()) {
+    shorten_spooled_indices();
+  } else {
+    body_file().append_file(index_spool_->writer());
+  }
+  index_spool_.reset();
+}
+
+/// There are few: they name less than 2^16 vertices.
+void GltfSink::shorten_spooled_indices() {
+  constexpr std::size_t kAtOnce = std::size_t{1} << 16;
   const std::uint64_t n_ids = 3 * counts_.n_triangles;
-  Buffer<std::uint32_t> ids(static_cast<std::size_t>(
-      std::min<std::uint64_t>(kBlockBytes / sizeof(std::uint32_t), n_ids)));
+  Buffer<std::uint32_t> ids(static_cast<std::size_t>(std::min<std::uint64_t>(kAtOnce, n_ids)));
+  Buffer<std::uint16_t> small(ids.size());
   for (std::uint64_t first = 0; first < n_ids; first += ids.size()) {
     const auto n = static_cast<std::size_t>(std::min<std::uint64_t>(ids.size(), n_ids - first));
-    const std::span<std::uint32_t> part = std::span(ids).first(n);
-    indices_->read(first * sizeof ids[0], std::as_writable_bytes(part));
-    if (!is_short) {
-      put_body(std::as_bytes(part));
-      continue;
-    }
-    put_records(
-        n, sizeof(std::uint16_t), block_,
-        [&](std::size_t i, std::byte* at) {
-          const auto small = static_cast<std::uint16_t>(part[i]);
-          std::memcpy(at, &small, sizeof small);
-        },
-        [this](std::span<const std::byte> bytes) { put_body(bytes); });
+    index_spool_->read(first * sizeof ids[0], std::as_writable_bytes(std::span(ids).first(n)));
+    std::transform(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(n), small.begin(),
+                   [](std::uint32_t id) { return static_cast<std::uint16_t>(id); });
+    body_file().append(std::as_bytes(std::span(small).first(n)));
   }
 }
 
@@ -287,11 +290,10 @@ void GltfSink::end_object(const MeshTotals& /*totals*/) {
   object.n_vertices = counts_.n_vertices;
   object.n_indices = 3 * counts_.n_triangles;
   object.indices_at = object.vertices_at + object.n_vertices * object.vertex_bytes();
-  if (indices_) {
+  vertices_->end();
+  indices_->end();
+  if (index_spool_) {
     take_spooled_indices();
-    indices_.reset();
-  } else {
-    (bin_ ? *bin_ : main_).skip(object.n_indices * object.index_bytes());
   }
 }
 

@@ -2,12 +2,13 @@
 #include "sink/ply/ply_sink.hpp"
 
 #include <array>
-#include <cassert>
 #include <cstring>
 #include <optional>
+#include <vector>
 
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
+#include "sink/part.hpp"
 #include "sink/records.hpp"
 #include "sink/text.hpp"
 
@@ -23,13 +24,18 @@ constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;     // of a `uin
 constexpr std::uint64_t kMostIntVertices = std::uint64_t{1} << 31;  // of an `int` index
 constexpr std::size_t kFaceBytes = 13;                              // uchar 3, three indices
 
+using Ids = std::array<std::uint32_t, 3>;
+
 class PlySink final : public MeshSink {
  public:
   PlySink(const std::string& path, const SinkOptions& options)
       : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
 
+  void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void format(const MeshChunk& chunk, std::size_t slot) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
+  void write(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
@@ -38,21 +44,23 @@ class PlySink final : public MeshSink {
   [[nodiscard]] std::string unpadded_header(const ObjectCounts& counts) const;
   [[nodiscard]] std::size_t vertex_bytes() const;
   void check_vertices(std::uint64_t n) const;
-  void write_vertices(const MeshChunk& chunk);
-  void write_faces(const MeshChunk& chunk);
-  void put_vertices(std::span<const std::byte> bytes);
-  void put_faces(std::span<const std::byte> bytes);
+  void make_vertex_piece(const MeshChunk& chunk, Piece& piece) const;
+  void make_face_piece(const MeshChunk& chunk, Piece& piece) const;
+  void make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const;
+
+  struct Slot {
+    Piece vertices, faces;
+  };
 
   SinkOptions options_;
   OutputFile out_;
   MeshObject object_;
   bool begun_ = false;
   ObjectCounts counts_;
-  std::optional<SpoolFile> vertices_;  // only to a stream whose counts come last
-  std::optional<SpoolFile> faces_;     // unless their place is known
-  std::uint64_t faces_at_ = 0;         // where the next face goes, unless spooled
-  Buffer<std::byte> block_;
-  std::string lines_;
+  std::optional<SpoolFile> vertex_spool_;  // only to a stream whose counts come last
+  std::optional<SpoolFile> face_spool_;    // unless their place is known
+  std::optional<Part> vertices_, faces_;
+  std::vector<Slot> slots_{1};
 };
 
 std::size_t PlySink::vertex_bytes() const {
@@ -108,111 +116,102 @@ void PlySink::begin_object(const MeshObject& object) {
   const bool known = counts_known(object);
   if (out_.seekable() || known) {
     out_.append(header({object.n_vertices.value_or(0), object.n_triangles.value_or(0)}));
+    vertices_.emplace(out_.writer(), out_.size());
   } else {
-    vertices_.emplace(out_);
+    vertices_.emplace(vertex_spool_.emplace(out_).writer(), 0);
   }
   if (out_.seekable() && known && !options_.ascii) {
-    faces_at_ = out_.size() + *object.n_vertices * vertex_bytes();
+    faces_.emplace(out_.writer(), out_.size() + *object.n_vertices * vertex_bytes());
   } else {
-    faces_.emplace(out_);
+    faces_.emplace(face_spool_.emplace(out_).writer(), 0);
   }
 }
 
-void PlySink::put_vertices(std::span<const std::byte> bytes) {
-  if (vertices_) {
-    vertices_->append(bytes);
-  } else {
-    out_.append(bytes);
-  }
-}
-
-void PlySink::put_faces(std::span<const std::byte> bytes) {
-  if (faces_) {
-    faces_->append(bytes);
-  } else {
-    out_.write_at(faces_at_, bytes);
-    faces_at_ += bytes.size();
-  }
-}
-
-void PlySink::write_vertices(const MeshChunk& chunk) {
-  const auto put = [this](std::span<const std::byte> bytes) { put_vertices(bytes); };
-  if (!options_.ascii) {
-    put_records(
-        chunk.n_vertices(), vertex_bytes(), block_,
-        [&](std::size_t i, std::byte* at) { encode_vertex(chunk, object_.has_normals, i, at); },
-        put);
-    return;
-  }
-  put_lines(
-      chunk.n_vertices(), lines_,
-      [&](std::size_t i, std::string& text) {
-        const std::size_t line = text.size();
-        if (object_.precision == Precision::f64) {
-          append_triple(text, &chunk.positions_f64[3 * i]);
-        } else {
-          append_triple(text, &chunk.positions[3 * i]);
-        }
-        if (object_.has_normals) {
-          append_triple(text, &chunk.normals[3 * i]);
-        }
-        text.erase(line, 1) += '\n';
-      },
-      put);
-}
-
-void PlySink::write_faces(const MeshChunk& chunk) {
-  const auto put = [this](std::span<const std::byte> bytes) { put_faces(bytes); };
-  const auto ids = [&](std::size_t i) {
-    std::array<std::uint32_t, 3> three{};  // fits: more than 2^32 vertices were refused
-    for (std::size_t c = 0; c < 3; ++c) {
-      three[c] = static_cast<std::uint32_t>(chunk.index_base + chunk.indices[3 * i + c]);
+void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const {
+  make_lines(chunk.n_vertices(), 2 * kMostTriple + 2, to, [&](std::size_t i, char* at) {
+    at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
+                                             : print_triple(at, &chunk.positions[3 * i]);
+    if (object_.has_normals) {
+      *at++ = ' ';
+      at = print_triple(at, &chunk.normals[3 * i]);
     }
-    return three;
-  };
-  if (!options_.ascii) {
-    put_records(
-        chunk.n_triangles(), kFaceBytes, block_,
-        [&](std::size_t i, std::byte* at) {
-          const auto three = ids(i);
-          *at = std::byte{3};
-          std::memcpy(at + 1, three.data(), sizeof three);
-        },
-        put);
-    return;
-  }
-  put_lines(
-      chunk.n_triangles(), lines_,
-      [&](std::size_t i, std::string& text) {
-        text += '3';
-        append_triple(text, ids(i).data());
-        text += '\n';
-      },
-      put);
+    *at++ = '\n';
+    return at;
+  });
 }
 
-void PlySink::write(const MeshChunk& chunk) {
-  assert(begun_);
+void PlySink::make_vertex_piece(const MeshChunk& chunk, Piece& piece) const {
+  if (options_.ascii) {
+    make_vertex_lines(chunk, piece.made);
+    piece.take_made();
+  } else if (object_.has_normals) {
+    make_vertices(chunk, piece.made);
+    piece.take_made();
+  } else if (object_.precision == Precision::f64) {
+    piece.take(chunk.positions_f64);
+  } else {
+    piece.take(chunk.positions);
+  }
+}
+
+void PlySink::make_face_piece(const MeshChunk& chunk, Piece& piece) const {
+  // Ids fit 32 bits: more than 2^32 vertices are refused.
+  const auto ids = [base = static_cast<std::uint32_t>(chunk.index_base),
+                    first = chunk.indices.data()](std::size_t i) {
+    const std::uint32_t* id = first + 3 * i;
+    return Ids{base + id[0], base + id[1], base + id[2]};
+  };
+  if (options_.ascii) {
+    make_lines(chunk.n_triangles(), kMostTriple + 3, piece.made, [&](std::size_t i, char* at) {
+      const Ids three = ids(i);
+      const std::array<std::uint64_t, 3> wide{three[0], three[1], three[2]};
+      at = print_triple(print_text(at, "3 "), wide.data());
+      *at++ = '\n';
+      return at;
+    });
+  } else {
+    make_records(chunk.n_triangles(), kFaceBytes, piece.made, [&](std::size_t i, std::byte* at) {
+      const Ids three = ids(i);
+      *at = std::byte{3};
+      std::memcpy(at + 1, three.data(), sizeof three);
+    });
+  }
+  piece.take_made();
+}
+
+void PlySink::format(const MeshChunk& chunk, std::size_t slot) {
+  make_vertex_piece(chunk, slots_[slot].vertices);
+  make_face_piece(chunk, slots_[slot].faces);
+}
+
+void PlySink::place(const MeshChunk& chunk, std::size_t slot) {
   counts_.add(object_, chunk);
   check_vertices(counts_.n_vertices);
-  write_vertices(chunk);
-  write_faces(chunk);
+  vertices_->place(slots_[slot].vertices);
+  faces_->place(slots_[slot].faces);
+}
+
+void PlySink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
+  vertices_->write(slots_[slot].vertices);
+  faces_->write(slots_[slot].faces);
 }
 
 void PlySink::end_object(const MeshTotals& /*totals*/) {
   check_announced(out_.place(), object_, counts_);
+  vertices_->end();
+  faces_->end();
 }
 
 void PlySink::finish() {
   if (!begun_) {
     begin_object({});
   }
-  if (vertices_) {
+  if (vertex_spool_) {
     out_.append(header(counts_));
-    vertices_->copy_to(out_);
+    vertex_spool_->copy_to(out_);
   }
-  if (faces_) {
-    faces_->copy_to(out_);
+  if (face_spool_) {
+    face_spool_->copy_to(out_);
   }
   if (out_.seekable()) {
     const std::string text = header(counts_);

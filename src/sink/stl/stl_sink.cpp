@@ -2,13 +2,15 @@
 #include "sink/stl/stl_sink.hpp"
 
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <optional>
+#include <vector>
 
+#include "base/parallel.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
+#include "sink/part.hpp"
 #include "sink/records.hpp"
 #include "sink/text.hpp"
 
@@ -25,10 +27,14 @@ constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;  // of a spooled
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kFacetBytes = 50;  // normal, three positions, two bytes of attributes
 
+constexpr std::size_t kFacetsAtOnce = 32768;
+
 using Triple = std::array<float, 3>;
+using Facet = std::array<Triple, 3>;
+using Ids = std::array<std::uint32_t, 3>;
 
 /// Unit normal by the right hand, zero where the facet has no area or is not finite.
-Triple facet_normal(const std::array<Triple, 3>& corner) {
+Triple facet_normal(const Facet& corner) {
   Vec3 u{}, v{};
   for (std::size_t a = 0; a < 3; ++a) {
     u[a] = static_cast<double>(corner[1][a]) - static_cast<double>(corner[0][a]);
@@ -46,13 +52,58 @@ Triple facet_normal(const std::array<Triple, 3>& corner) {
   return unit;
 }
 
+/// The positions of all vertices as stored, and what a message calls the output.
+struct Joined {
+  std::span<const std::byte> positions;
+  std::uint64_t n_vertices;
+  const std::string& place;
+
+  [[nodiscard]] Facet facet(const Ids& ids) const {
+    Facet corner{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (ids[c] >= n_vertices) {
+        throw Error(ErrorKind::internal, place, "a triangle names no vertex");
+      }
+      std::memcpy(corner[c].data(), &positions[ids[c] * sizeof(Triple)], sizeof(Triple));
+    }
+    return corner;
+  }
+};
+
+void encode_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::byte>& to) {
+  make_records(ids.size(), kFacetBytes, to, [&](std::size_t i, std::byte* at) {
+    const Facet corner = joined.facet(ids[i]);
+    const Triple normal = facet_normal(corner);
+    std::memcpy(at, normal.data(), sizeof normal);
+    std::memcpy(at + sizeof normal, corner.data(), sizeof corner);
+    std::memset(at + sizeof normal + sizeof corner, 0, kFacetBytes - sizeof normal - sizeof corner);
+  });
+}
+
+void print_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::byte>& to) {
+  constexpr std::size_t kMostFacet = 100 + 4 * kMostTriple;
+  make_lines(ids.size(), kMostFacet, to, [&](std::size_t i, char* at) {
+    const Facet corner = joined.facet(ids[i]);
+    at = print_triple(print_text(at, "facet normal "), facet_normal(corner).data());
+    at = print_text(at, "\n outer loop\n");
+    for (const Triple& p : corner) {
+      at = print_triple(print_text(at, "  vertex "), p.data());
+      *at++ = '\n';
+    }
+    return print_text(at, " endloop\nendfacet\n");
+  });
+}
+
 class StlSink final : public MeshSink {
  public:
   StlSink(const std::string& path, const SinkOptions& options)
       : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
 
+  void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
-  void write(const MeshChunk& chunk) override;
+  void format(const MeshChunk& chunk, std::size_t slot) override;
+  void place(const MeshChunk& chunk, std::size_t slot) override;
+  void write(const MeshChunk& chunk, std::size_t slot) override;
   void end_object(const MeshTotals& totals) override;
   void finish() override;
 
@@ -60,17 +111,19 @@ class StlSink final : public MeshSink {
   void check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) const;
   [[nodiscard]] std::string header() const;
   void write_facets();
-  void write_facets_as_text();
-  template <class Each>
-  void for_facets(Each each);
+
+  struct Slot {
+    Piece positions, triangles;
+  };
 
   SinkOptions options_;
   OutputFile out_;
   MeshObject object_;
   bool begun_ = false;
   ObjectCounts counts_;
-  std::optional<SpoolFile> positions_, triangles_;
-  Buffer<std::byte> block_;
+  std::optional<SpoolFile> position_spool_, triangle_spool_;
+  std::optional<Part> positions_, triangles_;
+  std::vector<Slot> slots_{1};
 };
 
 void StlSink::check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) const {
@@ -101,91 +154,72 @@ void StlSink::begin_object(const MeshObject& object) {
   begun_ = true;
   object_ = object;
   check_limits(object.n_vertices.value_or(0), object.n_triangles.value_or(0));
-  positions_.emplace(out_);
-  triangles_.emplace(out_);
+  positions_.emplace(position_spool_.emplace(out_).writer(), 0);
+  triangles_.emplace(triangle_spool_.emplace(out_).writer(), 0);
 }
 
-void StlSink::write(const MeshChunk& chunk) {
-  assert(begun_);
+void StlSink::format(const MeshChunk& chunk, std::size_t slot) {
+  auto& [positions, triangles] = slots_[slot];
+  if (object_.precision == Precision::f64) {
+    make_records(chunk.positions_f64.size(), sizeof(float), positions.made,
+                 [p = chunk.positions_f64.data()](std::size_t i, std::byte* at) {
+                   const auto rounded = static_cast<float>(p[i]);
+                   std::memcpy(at, &rounded, sizeof rounded);
+                 });
+    positions.take_made();
+  } else {
+    positions.take(chunk.positions);
+  }
+  make_records(chunk.indices.size(), sizeof(std::uint32_t), triangles.made,
+               [base = static_cast<std::uint32_t>(chunk.index_base), ids = chunk.indices.data()](
+                   std::size_t i, std::byte* at) {
+                 const std::uint32_t id = base + ids[i];
+                 std::memcpy(at, &id, sizeof id);
+               });
+  triangles.take_made();
+}
+
+void StlSink::place(const MeshChunk& chunk, std::size_t slot) {
   counts_.add(object_, chunk);
   check_limits(counts_.n_vertices, counts_.n_triangles);
-  const auto rounded = [&](std::size_t k) {
-    return chunk.positions_f64.empty() ? chunk.positions[k]
-                                       : static_cast<float>(chunk.positions_f64[k]);
-  };
-  put_records(
-      chunk.n_vertices(), sizeof(Triple), block_,
-      [&](std::size_t i, std::byte* at) {
-        const Triple p{rounded(3 * i), rounded(3 * i + 1), rounded(3 * i + 2)};
-        std::memcpy(at, p.data(), sizeof p);
-      },
-      [this](std::span<const std::byte> bytes) { positions_->append(bytes); });
-  put_records(
-      chunk.indices.size(), sizeof(std::uint32_t), block_,
-      [&](std::size_t i, std::byte* at) {
-        const auto id = static_cast<std::uint32_t>(chunk.index_base + chunk.indices[i]);
-        std::memcpy(at, &id, sizeof id);
-      },
-      [this](std::span<const std::byte> bytes) { triangles_->append(bytes); });
+  positions_->place(slots_[slot].positions);
+  triangles_->place(slots_[slot].triangles);
+}
+
+void StlSink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
+  positions_->write(slots_[slot].positions);
+  triangles_->write(slots_[slot].triangles);
 }
 
 void StlSink::end_object(const MeshTotals& /*totals*/) {
   check_announced(out_.place(), object_, counts_);
+  positions_->end();
+  triangles_->end();
 }
 
-/// Calls each(corners) for every triangle in order. Triangles are read block by block; positions
-/// are mapped, since they are wanted in any order (in practice near one another).
-template <class Each>
-void StlSink::for_facets(Each each) {
-  const std::span<const std::byte> positions = positions_->map();
-  constexpr std::size_t kPerBlock = (std::size_t{64} << 10) / sizeof(std::array<std::uint32_t, 3>);
-  Buffer<std::array<std::uint32_t, 3>> ids(kPerBlock);
-  std::array<Triple, 3> corner{};
-  for (std::uint64_t first = 0; first < counts_.n_triangles; first += kPerBlock) {
-    const auto n =
-        static_cast<std::size_t>(std::min<std::uint64_t>(kPerBlock, counts_.n_triangles - first));
-    triangles_->read(first * sizeof ids[0], std::as_writable_bytes(std::span(ids).first(n)));
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t c = 0; c < 3; ++c) {
-        if (ids[i][c] >= counts_.n_vertices) {
-          throw Error(ErrorKind::internal, out_.place(), "a triangle names no vertex");
-        }
-        std::memcpy(corner[c].data(), &positions[ids[i][c] * sizeof(Triple)], sizeof(Triple));
-      }
-      each(corner);
-    }
-  }
-}
-
+/// Joins triangles and positions, block by block. Triangles are read; positions are mapped, since
+/// they are wanted in any order (in practice near one another).
 void StlSink::write_facets() {
-  out_.append(header());
-  const auto n = static_cast<std::uint32_t>(counts_.n_triangles);
-  out_.append(std::as_bytes(std::span(&n, 1)));
-  for_facets([this](const std::array<Triple, 3>& corner) {
-    std::array<std::byte, kFacetBytes> facet{};
-    const Triple normal = facet_normal(corner);
-    std::memcpy(facet.data(), normal.data(), sizeof normal);
-    std::memcpy(facet.data() + sizeof normal, corner.data(), sizeof corner);
-    out_.append(facet);
-  });
-}
-
-void StlSink::write_facets_as_text() {
-  out_.append("solid mc\n");
-  std::string text;
-  for_facets([&](const std::array<Triple, 3>& corner) {
-    text = "facet normal";
-    append_triple(text, facet_normal(corner).data());
-    text += "\n outer loop\n";
-    for (const Triple& p : corner) {
-      text += "  vertex";
-      append_triple(text, p.data());
-      text += '\n';
-    }
-    text += " endloop\nendfacet\n";
-    out_.append(text);
-  });
-  out_.append("endsolid mc\n");
+  const Joined joined{position_spool_->map(), counts_.n_vertices, out_.place()};
+  struct Block {
+    Buffer<Ids> ids;
+    Buffer<std::byte> facets;
+  };
+  std::vector<Block> blocks(base::pipeline_slots());
+  const FileWriter& triangles = triangle_spool_->writer();
+  const auto make = [&](std::size_t item, std::size_t slot) {
+    auto& [ids, facets] = blocks[slot];
+    const std::uint64_t first = std::uint64_t{item} * kFacetsAtOnce;
+    ids.resize(static_cast<std::size_t>(
+        std::min<std::uint64_t>(kFacetsAtOnce, counts_.n_triangles - first)));
+    triangles.read_flushed(first * sizeof(Ids), std::as_writable_bytes(std::span(ids)));
+    options_.ascii ? print_facets(joined, ids, facets) : encode_facets(joined, ids, facets);
+  };
+  const std::array<base::Step, 2> steps{
+      {{false, make},
+       {true, [&](std::size_t /*item*/, std::size_t slot) { out_.append(blocks[slot].facets); }}}};
+  const std::uint64_t n_blocks = (counts_.n_triangles + kFacetsAtOnce - 1) / kFacetsAtOnce;
+  base::pipeline(static_cast<std::size_t>(n_blocks), blocks.size(), steps);
 }
 
 void StlSink::finish() {
@@ -193,8 +227,13 @@ void StlSink::finish() {
     begin_object({});
   }
   if (options_.ascii) {
-    write_facets_as_text();
+    out_.append("solid mc\n");
+    write_facets();
+    out_.append("endsolid mc\n");
   } else {
+    out_.append(header());
+    const auto n = static_cast<std::uint32_t>(counts_.n_triangles);
+    out_.append(std::as_bytes(std::span(&n, 1)));
     write_facets();
   }
   out_.commit();

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <bit>
 #include <cstring>
 #include <set>
 
@@ -21,37 +20,7 @@ constexpr std::uint32_t kOldest = 222;  // OpenVDB 1.0, the first release
 constexpr std::uint32_t kNewest = 224;
 constexpr std::size_t kUuidBytes = 36;
 
-[[noreturn]] void damaged(std::string_view place, std::string_view what) {
-  throw Error(ErrorKind::input, place, fmt::format("damaged VDB file: {}", what),
-              "fetch or write the file again");
-}
-
 }  // namespace
-
-std::span<const std::byte> VdbCursor::take(std::size_t n_bytes, std::string_view what) {
-  if (at_ > bytes_.size() || n_bytes > bytes_.size() - at_) {
-    throw Error(ErrorKind::input, place_,
-                fmt::format("cut off after {} bytes, within {}", bytes_.size(), what),
-                "fetch or write the file again");
-  }
-  const std::span<const std::byte> taken = bytes_.subspan(at_, n_bytes);
-  at_ += n_bytes;
-  return taken;
-}
-
-template <class T>
-T VdbCursor::number(std::string_view what) {
-  static_assert(std::endian::native == std::endian::little, "VDB files are little-endian");
-  T value{};
-  std::memcpy(&value, take(sizeof value, what).data(), sizeof value);
-  return value;
-}
-
-std::string VdbCursor::text(std::string_view what) {
-  const auto length = number<std::uint32_t>(what);
-  const std::span<const std::byte> bytes = take(length, what);
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 VdbMetaMap read_meta_map(VdbCursor& cursor) {
   VdbMetaMap map;
@@ -175,7 +144,7 @@ VdbLayout read_vdb_layout(std::span<const std::byte> file, std::string_view plac
   read_meta_map(cursor);
   const auto n_grids = cursor.number<std::int32_t>("the header");
   if (n_grids < 0) {
-    damaged(place, fmt::format("{} grids", n_grids));
+    damaged_vdb(place, fmt::format("{} grids", n_grids));
   }
   layout.n_grids = static_cast<std::uint32_t>(n_grids);
   layout.first_descriptor = cursor.at();
@@ -206,7 +175,7 @@ VdbGrid read_vdb_grid(std::span<const std::byte> file, const VdbLayout& layout, 
           "fetch or write the file again");
     }
     if (begin < cursor.at() || end < begin) {
-      damaged(place, "grids overlap");
+      damaged_vdb(place, "grids overlap");
     }
     cursor.move_to(static_cast<std::size_t>(begin));
     grid.end = static_cast<std::size_t>(end);

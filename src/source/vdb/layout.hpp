@@ -11,33 +11,11 @@
 #include <string_view>
 #include <vector>
 
-// The outline of a VDB file: header, grid descriptors, metadata. It is walked here, byte by byte
-// within bounds, and OpenVDB sees only trees and transforms: its own readers allocate what a
-// length in the file says before they look whether the bytes are there.
+#include "source/vdb/cursor.hpp"
+
+// The outline of a VDB file: header, grid descriptors, metadata.
 
 namespace mc::source {
-
-/// A position in a file's bytes that cannot leave them.
-class VdbCursor {
- public:
-  VdbCursor(std::span<const std::byte> bytes, std::size_t at, std::string_view place)
-      : bytes_(bytes), at_(at), place_(place) {}
-
-  /// Errors   input: the file ends before.
-  std::span<const std::byte> take(std::size_t n_bytes, std::string_view what);
-  template <class T>
-  T number(std::string_view what);
-  /// A 32-bit length and as many bytes.
-  std::string text(std::string_view what);
-
-  [[nodiscard]] std::size_t at() const { return at_; }
-  void move_to(std::size_t at) { at_ = at; }
-
- private:
-  std::span<const std::byte> bytes_;
-  std::size_t at_;
-  std::string_view place_;
-};
 
 /// Name -> type and bytes.
 struct VdbMeta {

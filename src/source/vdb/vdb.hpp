@@ -8,8 +8,8 @@
 #include "mc/source.hpp"
 #include "source/mapped_file.hpp"
 
-// VDB files: the only door by which OpenVDB reads. Float, double, int32, int64, bool and mask
-// grids become LeafReaders; trees are never densified. Everything else is refused by name.
+// VDB files. Float, double, int32, int64, bool and mask grids become LeafReaders; trees are never
+// densified. Everything else is refused by name.
 
 namespace mc::source {
 

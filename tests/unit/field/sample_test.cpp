@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
+#include "field/half_values.hpp"
 #include "mc/field.hpp"
 
 namespace mc {
@@ -17,6 +21,19 @@ TEST(Half, EveryBitPatternSurvivesTheWayThroughFloat) {
     } else {
       EXPECT_EQ(to_half(f).bits, h.bits) << bits;
     }
+  }
+}
+
+TEST(Half, ArraysWidenAsOneByOne) {
+  std::vector<std::uint16_t> halves(0x10000);
+  std::iota(halves.begin(), halves.end(), std::uint16_t{0});
+  std::vector<float> wide(halves.size());
+  field::widen_halves(reinterpret_cast<const std::byte*>(halves.data()), halves.size(),
+                      wide.data());
+  for (std::size_t n = 0; n < halves.size(); ++n) {
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(wide[n]),
+              std::bit_cast<std::uint32_t>(to_float(Half{halves[n]})))
+        << n;
   }
 }
 

@@ -52,7 +52,7 @@ std::string glb_of_n_vertices(std::size_t n, const Way& way) {
     chunk.positions.assign(3 * n, 1.F);
     chunk.indices = {0, 1, static_cast<std::uint32_t>(n - 1)};
     sink->begin_object(object);
-    sink->write(chunk);
+    sink->put(chunk);
     sink->end_object({});
     sink->finish();
   };
@@ -135,7 +135,7 @@ TEST(Glb, AnOriginIsTheNodesTranslation) {
   MeshObject object = mesh.object(false);
   object.origin = {1e6 + 0.1, 0, -3};
   sink->begin_object(object);
-  sink->write(mesh.chunks(0)[0]);
+  sink->put(mesh.chunks(0)[0]);
   sink->end_object(Tetrahedron::totals());
   sink->finish();
   const tinygltf::Model model = read_glb(read_all(folder / "a.glb"));
@@ -173,7 +173,7 @@ TEST(Glb, NamesNeedNotBeUtf8) {
       open_mesh_sink(folder / "a.glb", {.to = {}, .precision = {}, .provenance = {{"g", "\xFF"}}});
   const Tetrahedron mesh;
   sink->begin_object(mesh.object(false, "\xC3\x28\""));
-  sink->write(mesh.chunks(0)[0]);
+  sink->put(mesh.chunks(0)[0]);
   sink->end_object(Tetrahedron::totals());
   sink->finish();
   EXPECT_EQ(read_glb(read_all(folder / "a.glb")).nodes[0].name, "\xEF\xBF\xBD(\"");
@@ -209,7 +209,7 @@ TEST(Gltf, IsJsonAndBuffer) {
                                      {.to = {}, .force = true, .precision = {}, .provenance = {}});
     sink->begin_object(mesh.object(counts));
     for (const MeshChunk& chunk : mesh.chunks(2)) {
-      sink->write(chunk);
+      sink->put(chunk);
     }
     sink->end_object(Tetrahedron::totals());
     sink->finish();

@@ -83,7 +83,7 @@ TEST(MeshRegistry, EverySinkLeavesNothingUnfinished) {
     const auto sink = open_mesh_sink(folder / name, {});
     const Tetrahedron mesh;
     sink->begin_object(mesh.object(false));
-    sink->write(mesh.chunks(0)[0]);
+    sink->put(mesh.chunks(0)[0]);
     EXPECT_GE(folder.n_entries(), 1U) << name;
   }
   EXPECT_EQ(folder.n_entries(), 0U);

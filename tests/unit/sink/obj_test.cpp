@@ -69,7 +69,7 @@ TEST(Obj, PrintsDoublesInFull) {
   MeshChunk chunk;
   chunk.positions_f64 = {1e6 + 1.0 / 3, -1e-9, 123456789.0};
   sink->begin_object(object);
-  sink->write(chunk);
+  sink->put(chunk);
   sink->end_object({});
   sink->finish();
   EXPECT_EQ(read_all(folder / "a.obj"), "v 1000000.3333333334 -1e-09 123456789\n");

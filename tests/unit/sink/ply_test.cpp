@@ -121,7 +121,7 @@ TEST(Ply, TypesItsIndicesByTheNumberOfVertices) {
       MeshChunk chunk;
       chunk.positions.resize(1 << 20);  // more than is buffered
       chunk.positions.resize(3 * (chunk.positions.size() / 3));
-      sink->write(chunk);
+      sink->put(chunk);
     });
   };
   const std::uint64_t most_int = std::uint64_t{1} << 31;
@@ -166,7 +166,7 @@ TEST(Ply, AFullDeviceIsSaid) {
                   const auto sink = open_mesh_sink("/dev/full", ply());
                   const Tetrahedron mesh;
                   sink->begin_object(mesh.object(true));
-                  sink->write(mesh.chunks(0)[0]);
+                  sink->put(mesh.chunks(0)[0]);
                   sink->end_object(Tetrahedron::totals());
                   sink->finish();
                 },

@@ -111,7 +111,7 @@ std::string written(const Tetrahedron& mesh, SinkOptions options, const Way& way
     for (std::size_t i = 0; i < n_objects; ++i) {
       sink->begin_object(mesh.object(way.counts, "part " + std::to_string(i + 1)));
       for (const MeshChunk& chunk : mesh.chunks(way.cut)) {
-        sink->write(chunk);
+        sink->put(chunk);
       }
       sink->end_object(Tetrahedron::totals());
     }

@@ -57,7 +57,7 @@ TEST(Stl, DegenerateFacetsHaveNoNormal) {
   chunk.positions = {1, 2, 3, 4, 5, 6};
   chunk.indices = {0, 1, 0};
   sink->begin_object({});
-  sink->write(chunk);
+  sink->put(chunk);
   sink->end_object({});
   sink->finish();
   EXPECT_TRUE(read_all(folder / "a.stl").starts_with("solid mc\nfacet normal 0 0 0\n"));
@@ -90,7 +90,7 @@ TEST(Stl, ATriangleWithoutVertexIsAFaultOfOurs) {
   MeshChunk chunk;
   chunk.indices = {0, 1, 2};
   sink->begin_object({});
-  sink->write(chunk);
+  sink->put(chunk);
   sink->end_object({});
   EXPECT_EQ(error_text([&] { sink->finish(); }, ErrorKind::internal),
             folder / "a.stl: a triangle names no vertex");

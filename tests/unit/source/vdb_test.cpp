@@ -5,6 +5,7 @@
 
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <openvdb/points/PointDataGrid.h>
 
 #include <chrono>
 #include <map>
@@ -136,6 +137,70 @@ TEST(Vdb, EveryScalarType) {
   expect_round_trip<openvdb::BoolGrid>(SampleType::u8, false);
 }
 
+/// A leaf each for every way in which OpenVDB leaves out inactive values, and two whole ones.
+openvdb::FloatGrid::Ptr every_kind_of_leaf(float background) {
+  auto grid = openvdb::FloatGrid::create(background);
+  const std::vector<std::vector<float>> inactive{{background},
+                                                 {-background},
+                                                 {7},
+                                                 {background, -background},
+                                                 {background, 7},
+                                                 {-background, 7},
+                                                 {7, 8},
+                                                 {7, 8, 9},
+                                                 {},
+                                                 {0.F, -0.F},
+                                                 {-background},
+                                                 {1e30F, background}};
+  std::mt19937 random(3);
+  for (std::size_t n = 0; n < inactive.size(); ++n) {
+    auto* leaf = new openvdb::FloatTree::LeafNodeType(
+        openvdb::Coord(static_cast<int>(n) * 8 - 32, 8, -8), background);
+    for (openvdb::Index at = 0; at < openvdb::FloatTree::LeafNodeType::SIZE; ++at) {
+      const auto value = static_cast<float>(random() % 1000U) / 8;
+      if (inactive[n].empty() || at / 64 == 2 || random() % 3U == 0) {
+        leaf->setValueOn(at, value);
+      } else {
+        leaf->setValueOff(at, inactive[n][random() % inactive[n].size()]);
+      }
+    }
+    grid->tree().addLeaf(leaf);
+  }
+  grid->tree().addTile(1, {0, 512, 0}, background == 0 ? 5 : -background, false);
+  grid->tree().addTile(2, {0, 1024, 0}, 3, true);
+  return grid;
+}
+
+TEST(Vdb, EveryCompressionAndKindOfLeaf) {
+  using namespace openvdb::io;
+  openvdb::initialize();
+  const Folder folder;
+  const std::vector<std::uint32_t> all{COMPRESS_NONE,
+                                       COMPRESS_ZIP,
+                                       COMPRESS_BLOSC,
+                                       COMPRESS_ACTIVE_MASK,
+                                       COMPRESS_ZIP | COMPRESS_ACTIVE_MASK,
+                                       COMPRESS_BLOSC | COMPRESS_ACTIVE_MASK};
+  for (const std::uint32_t flags : all) {
+    for (const bool as_half : {false, true}) {
+      for (const float background : {3.F, 0.F}) {
+        const auto grid = every_kind_of_leaf(background);
+        grid->setSaveFloatAsHalf(as_half);
+        openvdb::io::File file(folder.path("c.vdb"));
+        file.setCompression(flags);
+        file.write({grid});
+        openvdb::io::File back(folder.path("c.vdb"));  // halves round: OpenVDB says to what
+        back.open();
+        const auto expected = openvdb::gridPtrCast<openvdb::FloatGrid>(back.readGrid(""));
+        const Source source = open({folder.path("c.vdb")});
+        const std::string message = std::to_string(flags) + (as_half ? " half" : "");
+        EXPECT_EQ(differences(leaves(source), *expected, {-33, 7, -9}, {65, 16, 0}), 0) << message;
+        EXPECT_EQ(leaves(source).tiles().size(), 2U) << message;
+      }
+    }
+  }
+}
+
 TEST(Vdb, MasksAreTheirActiveSamples) {
   openvdb::initialize();
   const Folder folder;
@@ -151,7 +216,7 @@ TEST(Vdb, MasksAreTheirActiveSamples) {
   EXPECT_EQ(differences(leaves(source), *grid, {-10, -10, -10}, {8, 8, 8}), 0);
 }
 
-TEST(Vdb, NumbersComeFromOpenVdbsOwnMemory) {
+TEST(Vdb, NumbersAreNotCopied) {
   openvdb::initialize();
   const Folder folder;
   auto grid = openvdb::FloatGrid::create(0);
@@ -250,6 +315,28 @@ TEST(Vdb, AnyLinearTransform) {
   mirrored->postScale(openvdb::Vec3d(-1, 1, 2));
   mirrored->postTranslate({3, 4, 5});
   expect_placed_as(mirrored);
+  using namespace openvdb::math;
+  expect_placed_as(std::make_shared<Transform>(std::make_shared<ScaleMap>(Vec3d(1, 2, 3))));
+  expect_placed_as(std::make_shared<Transform>(std::make_shared<TranslationMap>(Vec3d(1, 2, 3))));
+  expect_placed_as(std::make_shared<Transform>(std::make_shared<UnitaryMap>(X_AXIS, 0.3)));
+}
+
+TEST(Vdb, ProjectiveMapsAreDamage) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(0);
+  grid->tree().setValueOn({0, 0, 0}, 1);
+  grid->setTransform(openvdb::math::Transform::createLinearTransform(
+      openvdb::Mat4d(2, 0, 0, 0, 1, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1)));
+  write(folder.path("whole.vdb"), {grid});
+  std::string bytes = test::read_bytes(folder.path("whole.vdb"));
+  const std::size_t at = bytes.find("AffineMap");
+  ASSERT_NE(at, std::string::npos);
+  bytes[at + 9 + 3 * sizeof(double)] = 1;
+  const std::string file = folder.file("p.vdb", bytes);
+  EXPECT_EQ(error_of_open({file}), "3 " + file +
+                                       ": damaged VDB file: a projective map; fetch or write the "
+                                       "file again");
 }
 
 TEST(Vdb, PlacementOptionsOverride) {
@@ -380,6 +467,34 @@ TEST(Vdb, SharedTreesAndStreamsWithoutOffsets) {
   }
 }
 
+TEST(Vdb, StreamsArePassedOverAsFarAsTheyCanBe) {
+  openvdb::initialize();
+  const Folder folder;
+  auto scalar = noise<openvdb::FloatGrid>(3);
+  scalar->setName("s");
+  auto bits = noise<openvdb::BoolGrid>(false);
+  bits->setName("b");
+  auto frustum = openvdb::FloatGrid::create(0);
+  frustum->setTransform(openvdb::math::Transform::createFrustumTransform(
+      openvdb::BBoxd({0, 0, 0}, {10, 10, 10}), 0.5, 2.0));
+  auto points = openvdb::points::PointDataGrid::create();
+  points->setName("p");
+  const auto streamed = [&](const openvdb::GridPtrVec& grids) {
+    std::ostringstream stream(std::ios::binary);
+    openvdb::io::Stream(stream).write(grids);
+    return folder.file("streamed.vdb", stream.str());
+  };
+  SourceOptions options;
+  options.grid = "s";
+  const Source source = open({streamed({frustum, bits, scalar, points})}, options);
+  EXPECT_EQ(differences(leaves(source), *scalar, {-14, -14, -14}, {19, 19, 19}), 0);
+  const std::string file = streamed({points, scalar});
+  EXPECT_EQ(error_of_open({file}, options),
+            "3 " + file +
+                ": grid \"p\": type \"ptdataidx32\" in a file without offsets: what follows it "
+                "cannot be found; write the file again, to a disk and not to a pipe");
+}
+
 TEST(Vdb, ClassesOfGrids) {
   openvdb::initialize();
   const Folder folder;
@@ -439,9 +554,6 @@ TEST(VdbDamaged, EveryCutIsAnInputErrorAndQuick) {
 }
 
 TEST(VdbDamaged, FlippedBytesNeverCrash) {
-#if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "AddressSanitizer ends the program where OpenVDB asks for more than there is";
-#endif
   openvdb::initialize();
   const Folder folder;
   const std::string bytes = noise_file(folder);

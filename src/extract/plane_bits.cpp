@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "extract/plane_bits.hpp"
+
+#include <algorithm>
+
+#include "extract/classify.hpp"
+
+namespace mc::extraction {
+
+namespace {
+/// Half of a small second cache: what was read last is still there when its vertices are made.
+constexpr std::size_t kBandBytes = 1U << 18U;
+constexpr std::size_t kMinBandRows = 64;
+}  // namespace
+
+PlaneClassifier::PlaneClassifier(const Volume& volume, const ExtractOptions& options)
+    : threshold_(volume.type, volume.endian, options.iso, options.inside),
+      box_(options.region.value_or(volume.lattice.box)),
+      pad_(options.border != Border::open ? 1 : 0),
+      above_outside_((options.border == Border::solid) == (options.inside == Inside::above)),
+      row_samples_(static_cast<std::size_t>(box_.extent(0) + 2 * pad_)),
+      n_rows_(static_cast<std::size_t>(box_.extent(1) + 2 * pad_)),
+      n_words_(padded_words(row_samples_)) {
+  for (std::size_t w = 0; w < n_words_; ++w) {
+    cells_.push_back(cell_mask(row_samples_, w));
+  }
+  for (std::size_t w = 0; 64 * w < n_rows_; ++w) {
+    column_cells_.push_back(cell_mask(n_rows_, w));
+  }
+}
+
+PlaneBits PlaneClassifier::make_plane() const {
+  PlaneBits plane;
+  plane.words.assign(n_words_ * n_rows_ + 1, 0);
+  plane.first_column.resize(column_cells_.size() + 1);
+  plane.last_column.resize(column_cells_.size() + 1);
+  plane.i_start.resize(n_rows_);
+  plane.j_start.resize(n_rows_);
+  return plane;
+}
+
+std::size_t PlaneClassifier::rows_at_once() const {
+  return std::max(kMinBandRows, kBandBytes / (row_samples_ * sample_size(threshold_.type)));
+}
+
+void PlaneClassifier::fill_row(std::uint64_t* row) const {
+  const std::uint64_t constant = above_outside_ ? ~std::uint64_t{0} : 0;
+  std::fill_n(row, row_samples_ / 64, constant);
+  if (row_samples_ % 64 != 0) {
+    row[row_samples_ / 64] = constant & ((std::uint64_t{1} << (row_samples_ % 64)) - 1);
+  }
+}
+
+/// Moves a row's bits up by one sample and puts the constant layer at both ends.
+void PlaneClassifier::pad_row(std::uint64_t* row) const {
+  for (std::size_t w = (row_samples_ + 63) / 64; w-- > 0;) {
+    row[w] = (row[w] << 1) | (w > 0 ? row[w - 1] >> 63 : 0);
+  }
+  if (above_outside_) {
+    const std::size_t last = row_samples_ - 1;
+    row[0] |= 1;
+    row[last / 64] |= std::uint64_t{1} << (last % 64);
+  }
+}
+
+void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t j0, std::size_t j1,
+                               PlaneBits& out) const {
+  const auto row = [&](std::size_t j) { return out.words.data() + j * n_words_; };
+  const auto pad = static_cast<std::size_t>(pad_);
+  const std::int32_t k = first_of(plane)[2];
+  const bool is_constant = k < box_.lo[2] || k > box_.hi[2];
+  const std::size_t first = is_constant ? j1 : std::max(j0, pad);
+  const std::size_t last = is_constant ? j1 : std::min(j1, n_rows_ - pad);
+  for (std::size_t j = j0; j < first; ++j) {
+    fill_row(row(j));
+  }
+  if (first < last) {
+    const auto n_samples = static_cast<std::size_t>(box_.extent(0));
+    const std::size_t j = static_cast<std::size_t>(box_.lo[1]) + first - pad;
+    const std::byte* samples = slab.planes[static_cast<std::size_t>(k - slab.k0)] +
+                               j * slab.row_stride_bytes +
+                               static_cast<std::size_t>(box_.lo[0]) * sample_size(threshold_.type);
+    classify_rows(threshold_, {samples, slab.row_stride_bytes, n_samples, last - first}, row(first),
+                  n_words_);
+    for (std::size_t r = first; r < last && capped(); ++r) {
+      std::fill(row(r) + (n_samples + 63) / 64, row(r) + n_words_, 0);
+      pad_row(row(r));
+    }
+  }
+  for (std::size_t j = last; j < j1; ++j) {
+    fill_row(row(j));
+  }
+}
+
+void PlaneClassifier::take_columns(PlaneBits& plane) const {
+  const std::size_t last = row_samples_ - 1;
+  for (std::size_t w = 0; 64 * w < n_rows_; ++w) {
+    std::uint64_t first_word = 0;
+    std::uint64_t last_word = 0;
+    const std::size_t end = std::min<std::size_t>(64, n_rows_ - 64 * w);
+    for (std::size_t b = 0; b < end; ++b) {
+      const std::uint64_t* row = plane.words.data() + (64 * w + b) * n_words_;
+      first_word |= (row[0] & 1U) << b;
+      last_word |= (row[last / 64] >> (last % 64) & 1U) << b;
+    }
+    plane.first_column[w] = first_word;
+    plane.last_column[w] = last_word;
+  }
+}
+
+std::uint64_t PlaneClassifier::plane_sides(const PlaneBits& plane) const {
+  const BitPlane bits = view(plane);
+  std::uint64_t n = 0;
+  for (std::size_t j = 0; j + 1 < n_rows_; ++j) {
+    n += count_face_sides(bits.row(j), bits.row(j + 1), cells_.data(), (row_samples_ + 63) / 64);
+  }
+  return n;
+}
+
+std::uint64_t PlaneClassifier::border_sides(const PlaneBits& lower, const PlaneBits& upper,
+                                            bool is_first, bool is_last) const {
+  if (capped()) {
+    return 0;
+  }
+  const auto sides = [](const std::uint64_t* a, const std::uint64_t* b, const auto& cells,
+                        std::size_t n_samples) {
+    return count_face_sides(a, b, cells.data(), (n_samples + 63) / 64);
+  };
+  std::uint64_t n =
+      sides(lower.first_column.data(), upper.first_column.data(), column_cells_, n_rows_) +
+      sides(lower.last_column.data(), upper.last_column.data(), column_cells_, n_rows_);
+  for (const std::size_t j : {std::size_t{0}, n_rows_ - 1}) {
+    n += sides(view(lower).row(j), view(upper).row(j), cells_, row_samples_);
+  }
+  return n + (is_first ? plane_sides(lower) : 0) + (is_last ? plane_sides(upper) : 0);
+}
+
+}  // namespace mc::extraction

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "extract/row_kernels.hpp"
+#include "extract/threshold.hpp"
+#include "mc/extract.hpp"
+#include "mc/field.hpp"
+
+// Planes of sample bits of a dense volume or a region of it, with the constant layer of a closed
+// border around it where there is one: bits, never a copy of the data.
+
+namespace mc::extraction {
+
+/// Bits of one plane and what follows from them.
+struct PlaneBits {
+  Buffer<std::uint64_t> words;
+  std::vector<std::uint64_t> first_column, last_column;  ///< the rows' ends, as rows
+  std::vector<std::uint32_t> i_start, j_start;           ///< first ids of the rows
+
+  [[nodiscard]] PlaneIds ids() { return {i_start.data(), j_start.data()}; }
+};
+
+/// The shape of planes, and how they are made.
+class PlaneClassifier {
+ public:
+  PlaneClassifier(const Volume& volume, const ExtractOptions& options);
+
+  [[nodiscard]] const Threshold& threshold() const { return threshold_; }
+  [[nodiscard]] const IndexBox& box() const { return box_; }  ///< the region
+  [[nodiscard]] bool capped() const { return pad_ != 0; }
+  /// Lattice indices of a plane's first sample, which may lie in the constant layer.
+  [[nodiscard]] Index3 first_of(std::int32_t plane) const {
+    return {box_.lo[0] - pad_, box_.lo[1] - pad_, box_.lo[2] - pad_ + plane};
+  }
+  [[nodiscard]] std::size_t row_samples() const { return row_samples_; }
+  [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
+  [[nodiscard]] std::int64_t n_planes() const { return box_.extent(2) + 2 * pad_; }
+  [[nodiscard]] std::uint64_t plane_bytes() const {
+    return (n_words_ * n_rows_ + 1) * sizeof(std::uint64_t);
+  }
+
+  [[nodiscard]] PlaneBits make_plane() const;
+  [[nodiscard]] BitPlane view(const PlaneBits& plane) const {
+    return {plane.words.data(), cells_.data(), n_words_, row_samples_, n_rows_};
+  }
+  /// Rows that are worth reading in several streams and yet stay in a core's cache.
+  [[nodiscard]] std::size_t rows_at_once() const;
+
+  /// Makes rows [j0, j1) of a plane. The slab holds it, unless it is of the constant layer.
+  void classify(const Slab& slab, std::int32_t plane, std::size_t j0, std::size_t j1,
+                PlaneBits& out) const;
+  /// Makes the columns of a plane from its bits.
+  void take_columns(PlaneBits& plane) const;
+
+  /// Sides of triangles in those of the volume's faces that a layer of cells touches; none where
+  /// the border is closed.
+  [[nodiscard]] std::uint64_t border_sides(const PlaneBits& lower, const PlaneBits& upper,
+                                           bool is_first, bool is_last) const;
+
+ private:
+  void fill_row(std::uint64_t* row) const;
+  void pad_row(std::uint64_t* row) const;
+  [[nodiscard]] std::uint64_t plane_sides(const PlaneBits& plane) const;
+
+  Threshold threshold_;
+  IndexBox box_;
+  std::int32_t pad_;
+  bool above_outside_;  ///< what the constant layer is
+  std::size_t row_samples_, n_rows_, n_words_;
+  Buffer<std::uint64_t> cells_;              ///< ones for the cells of a row
+  std::vector<std::uint64_t> column_cells_;  ///< and of a column
+};
+
+}  // namespace mc::extraction

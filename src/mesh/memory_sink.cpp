@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/memory_sink.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <mutex>
+
+#include "mesh/word_kernels.hpp"
+
+// place() makes room, write() fills it: only a mesh that must move to larger memory keeps a thread
+// from its copying, and one that was as large before does not move.
+
+namespace mc::mesh {
+
+namespace {
+
+/// A mesh of more bytes than a core's own cache would only push out what the cores work on.
+constexpr std::size_t kStreamedBytes = std::size_t{8} << 20;
+
+template <class T>
+bool has_room(const Buffer<T>& buffer, std::size_t n_more) {
+  return n_more <= buffer.capacity() - buffer.size();
+}
+
+template <class T>
+void make_room(Buffer<T>& buffer, std::size_t n_more) {
+  if (!has_room(buffer, n_more)) {
+    buffer.reserve(std::max(buffer.size() + n_more, 2 * buffer.capacity()));
+  }
+}
+
+/// What the mesh holds, or held when its memory was last used.
+std::size_t bytes_of(const Mesh& mesh) {
+  return mesh.positions.capacity() * sizeof mesh.positions[0] +
+         mesh.normals.capacity() * sizeof mesh.normals[0] +
+         mesh.triangles.capacity() * sizeof mesh.triangles[0];
+}
+
+}  // namespace
+
+void MemorySink::start(Mesh& mesh) {
+  mesh_ = &mesh;
+  mesh.positions.clear();
+  mesh.normals.clear();
+  mesh.triangles.clear();
+}
+
+void MemorySink::set_slots(std::size_t n_slots) { places_.resize(n_slots); }
+
+void MemorySink::begin_object(const MeshObject& /*object*/) {
+  places_.resize(std::max<std::size_t>(places_.size(), 1));
+}
+
+void MemorySink::place(const MeshChunk& chunk, std::size_t slot) {
+  Mesh& mesh = *mesh_;
+  places_[slot] = {mesh.positions.size(), mesh.triangles.size()};
+  const std::size_t n_normals = chunk.normals.size() / 3;
+  if (mesh.positions.size() + chunk.n_vertices() > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error(ErrorKind::limit, {}, "the mesh has more than 2^32-1 vertices",
+                "extract it in parts");
+  }
+  if (!has_room(mesh.positions, chunk.n_vertices()) || !has_room(mesh.normals, n_normals) ||
+      !has_room(mesh.triangles, chunk.n_triangles())) {
+    const std::lock_guard alone(moving_);
+    make_room(mesh.positions, chunk.n_vertices());
+    make_room(mesh.normals, n_normals);
+    make_room(mesh.triangles, chunk.n_triangles());
+  }
+  mesh.positions.resize(mesh.positions.size() + chunk.n_vertices());
+  mesh.normals.resize(mesh.normals.size() + n_normals);
+  mesh.triangles.resize(mesh.triangles.size() + chunk.n_triangles());
+}
+
+void MemorySink::write(const MeshChunk& chunk, std::size_t slot) {
+  const std::shared_lock staying(moving_);
+  Mesh& mesh = *mesh_;
+  const auto [vertex, triangle] = places_[slot];
+  const Stores stores = bytes_of(mesh) > kStreamedBytes ? Stores::streamed : Stores::cached;
+  move_words(chunk.positions.data(), chunk.positions.size(), 0, mesh.positions.data() + vertex,
+             stores);
+  if (!chunk.normals.empty()) {
+    move_words(chunk.normals.data(), chunk.normals.size(), 0, mesh.normals.data() + vertex, stores);
+  }
+  move_words(chunk.indices.data(), chunk.indices.size(),
+             static_cast<std::uint32_t>(chunk.index_base), mesh.triangles.data() + triangle,
+             stores);
+}
+
+void MemorySink::end_object(const MeshTotals& /*totals*/) {}
+void MemorySink::finish() { mesh_ = nullptr; }
+
+}  // namespace mc::mesh

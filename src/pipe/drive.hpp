@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <stop_token>
+#include <string_view>
+#include <vector>
+
+#include "mc/mesh.hpp"
+#include "mc/pipe.hpp"
+#include "pipe/tasks.hpp"
+
+// The tasks of one extraction, made on all threads, and their chunks' way into the sink:
+// made -> numbered, in order -> formatted -> placed, in order -> written.
+
+namespace mc::pipe {
+
+/// Holds the chunks on their way, whose memory is used again from run to run.
+class Drive {
+ public:
+  /// Runs all tasks, whose slots have been set to `n_slots`; as mc::run().
+  MeshTotals run(TaskList& tasks, std::size_t n_slots, const RunOptions& options, bool allow_empty,
+                 MeshSink& sink, Progress& progress, const std::stop_token& stop);
+
+ private:
+  struct Work;
+  std::vector<TaskResult> results_;
+};
+
+}  // namespace mc::pipe

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/memory_sink.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+#include "extract/simd_target.hpp"
+#include "mesh/word_kernels.hpp"
+
+namespace mc::mesh {
+namespace {
+
+TEST(MoveWords, IsAnAdditionOnEveryTarget) {
+  std::vector<std::uint32_t> from(200);
+  std::iota(from.begin(), from.end(), 0xFFFFFF80U);
+  for (const std::string& target : extraction::simd_targets()) {
+    ASSERT_TRUE(extraction::set_simd_target(target));
+    for (const Stores stores : {Stores::cached, Stores::streamed}) {
+      for (std::size_t at = 0; at < 20; ++at) {
+        for (const std::size_t n : {0, 1, 5, 16, 33, 100, 150}) {
+          std::vector<std::uint32_t> to(200, 7);
+          move_words(from.data() + 3, n, 300, to.data() + at, stores);
+          for (std::size_t i = 0; i < to.size(); ++i) {
+            const bool inside = i >= at && i < at + n;
+            ASSERT_EQ(to[i], inside ? from[i - at + 3] + 300 : 7)
+                << target << " at " << at << " n " << n << " word " << i;
+          }
+        }
+      }
+    }
+  }
+  extraction::reset_simd_target();
+}
+
+MeshChunk chunk_of(std::size_t n_vertices, std::size_t n_triangles, float value) {
+  MeshChunk chunk;
+  chunk.positions.assign(3 * n_vertices, value);
+  chunk.normals.assign(3 * n_vertices, -value);
+  chunk.indices.assign(3 * n_triangles, 1);
+  return chunk;
+}
+
+TEST(MemorySink, PlacesInOrderWhateverTheOrderOfWriting) {
+  Mesh mesh;
+  MemorySink sink;
+  sink.start(mesh);
+  sink.set_slots(2);
+  sink.begin_object({});
+  MeshChunk first = chunk_of(2, 1, 1);
+  MeshChunk second = chunk_of(1, 2, 2);
+  second.index_base = 2;
+  sink.place(first, 0);
+  sink.place(second, 1);
+  sink.write(second, 1);
+  sink.write(first, 0);
+  sink.end_object({});
+  sink.finish();
+  using Triple = std::array<float, 3>;
+  using Ids = std::array<std::uint32_t, 3>;
+  EXPECT_EQ(mesh.positions, (Buffer<Triple>{{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}));
+  EXPECT_EQ(mesh.normals, (Buffer<Triple>{{-1, -1, -1}, {-1, -1, -1}, {-2, -2, -2}}));
+  EXPECT_EQ(mesh.triangles, (Buffer<Ids>{{1, 1, 1}, {3, 3, 3}, {3, 3, 3}}));
+}
+
+TEST(MemorySink, KeepsWhatIsWrittenWhenItMoves) {
+  Mesh mesh;
+  MemorySink sink;
+  sink.start(mesh);
+  sink.begin_object({});
+  std::size_t n = 0;
+  for (std::size_t c = 1; n < 1000000; c *= 2) {  // past the size from which it streams
+    sink.put(chunk_of(c, c, static_cast<float>(n)));
+    n += c;
+  }
+  ASSERT_EQ(mesh.positions.size(), n);
+  ASSERT_EQ(mesh.triangles.size(), n);
+  std::size_t at = 0;
+  for (std::size_t c = 1; at < n; c *= 2) {
+    for (std::size_t i = at; i < at + c; ++i) {
+      ASSERT_EQ(mesh.positions[i][2], static_cast<float>(at)) << i;
+    }
+    at += c;
+  }
+}
+
+}  // namespace
+}  // namespace mc::mesh
