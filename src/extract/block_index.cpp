@@ -8,8 +8,7 @@ namespace mc::extraction {
 
 namespace {
 
-constexpr std::int32_t kNodeSamples = 64;  // a node is 8 blocks of 8 samples wide
-constexpr std::int32_t kBigTile = 1024;    // tiles from here on are not cut into nodes
+constexpr std::int32_t kNodeSamples = 64;                  // a node is 8 blocks of 8 samples wide
 constexpr std::uint64_t kColumn0 = 0x0101010101010101ULL;  // x = 0 in every row
 
 std::uint64_t hash_of(const Index3& p) {
@@ -35,6 +34,33 @@ BitPlace place_in_node(const Index3& block) {
 bool test(const Mask512& mask, BitPlace p) { return ((mask[p.word] >> p.bit) & 1U) != 0; }
 void set(Mask512& mask, BitPlace p) { mask[p.word] |= std::uint64_t{1} << p.bit; }
 
+/// Ones of a mask before a place.
+std::uint32_t rank_in(const Mask512& mask, BitPlace p) {
+  int rank = std::popcount(mask[p.word] & ((std::uint64_t{1} << p.bit) - 1));
+  for (std::size_t w = 0; w < p.word; ++w) rank += std::popcount(mask[w]);
+  return static_cast<std::uint32_t>(rank);
+}
+std::uint32_t ones_in(const Mask512& mask) {
+  int n = 0;
+  for (const std::uint64_t word : mask) n += std::popcount(word);
+  return static_cast<std::uint32_t>(n);
+}
+
+/// Tiles that are whole nodes are not cut into blocks.
+bool is_big(const Tile& tile) { return tile.size > kNodeSamples && tile.size % kNodeSamples == 0; }
+
+/// Calls f for every block of a tile.
+template <class F>
+void for_each_block(const Tile& tile, F&& f) {
+  const Index3 first = block_of(tile.origin);
+  const std::int32_t n = tile.size / 8;
+  for (std::int32_t z = 0; z < n; ++z) {
+    for (std::int32_t y = 0; y < n; ++y) {
+      for (std::int32_t x = 0; x < n; ++x) f(plus(first, x, y, z));
+    }
+  }
+}
+
 Mask512 operator|(const Mask512& a, const Mask512& b) {
   Mask512 out;
   for (std::size_t w = 0; w < 8; ++w) out[w] = a[w] | b[w];
@@ -58,6 +84,12 @@ Mask512 from_z(const Mask512& m, const Mask512& next) {
   return {m[1], m[2], m[3], m[4], m[5], m[6], m[7], next[0]};
 }
 
+bool above(const Scalar& value, const Threshold& threshold) {
+  return field::visit_type(threshold.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
+    return is_above(value.as<T>(), threshold);
+  });
+}
+
 /// For each block: whether any of the 2x2x2 blocks from it upwards is set. m[x + 2y + 4z] are
 /// nodes.
 Mask512 any_upwards(const std::array<Mask512, 8>& m) {
@@ -71,106 +103,104 @@ Mask512 any_upwards(const std::array<Mask512, 8>& m) {
 }  // namespace
 
 BlockIndex::BlockIndex(const LeafReader& reader, const Threshold& threshold) {
-  const auto above = [&](const Scalar& value) {
-    return field::visit_type(threshold.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
-      return is_above(value.as<T>(), threshold);
-    });
-  };
-  background_ = {reader.background(), above(reader.background())};
   slots_.resize(64);
-  for (const Index3& origin : reader.leaves()) {
+  constants_.push_back({reader.background(), above(reader.background(), threshold)});
+  background_ = constants_.front();
+  add_leaves(reader.leaves());
+  add_tiles(reader.tiles(), threshold);
+}
+
+std::uint32_t BlockIndex::constant_of(const Scalar& value, const Threshold& threshold) {
+  if (!(constants_.back().value == value)) constants_.push_back({value, above(value, threshold)});
+  return static_cast<std::uint32_t>(constants_.size() - 1);
+}
+
+void BlockIndex::add_leaves(std::span<const Index3> origins) {
+  for (const Index3& origin : origins) {
     const Index3 block = block_of(origin);
     set(nodes_[node_at(block_of(block))].leaf, place_in_node(block));
   }
-  for (const Tile& tile : reader.tiles()) {
-    constants_.push_back({tile.value, above(tile.value)});
-    add_tile(tile, static_cast<std::uint32_t>(constants_.size() - 1));
+  const auto number_nodes = [this] {
+    std::uint32_t n = 0;
+    for (Node& node : nodes_) {
+      node.leaves = n;
+      for (std::size_t w = 0; w < 8; ++w) {
+        node.leaves_before[w] = static_cast<std::uint16_t>(n - node.leaves);
+        n += static_cast<std::uint32_t>(std::popcount(node.leaf[w]));
+      }
+    }
+  };
+  number_nodes();
+  leaf_entries_.resize(origins.size());
+  for (std::size_t leaf = 0; leaf < origins.size(); ++leaf) {
+    // A node's leaves come in the order of its bits, as all leaves are ordered by (z, y, x).
+    Node& node = nodes_[node_at(block_of(block_of(origins[leaf])))];
+    leaf_entries_[node.leaves++] = static_cast<std::uint32_t>(leaf);
   }
+  number_nodes();
+}
+
+void BlockIndex::add_tiles(std::span<const Tile> tiles, const Threshold& threshold) {
+  for (const Tile& tile : tiles) add_tile(tile, constant_of(tile.value, threshold));
   std::sort(big_tiles_.begin(), big_tiles_.end(),
             [](const BigTile& a, const BigTile& b) { return before(a.origin, b.origin); });
-  fill_entries(reader);
+  number_tiles(tiles);
+}
+
+/// Where tiles of different values share a node, each block says which it is of.
+void BlockIndex::number_tiles(std::span<const Tile> tiles) {
+  std::uint32_t n = 0;
+  for (Node& node : nodes_) {
+    if (node.constant != kVarious) continue;
+    node.tiles = n;
+    n += ones_in(node.tile);
+  }
+  if (n == 0) return;
+  tile_entries_.resize(n);
+  std::uint32_t constant = 0;
+  for (const Tile& tile : tiles) {
+    while (!(constants_[constant].value == tile.value)) ++constant;  // as constant_of() made them
+    if (is_big(tile)) continue;
+    for_each_block(tile, [&](const Index3& block) {
+      const Node& node = nodes_[node_at(block_of(block))];
+      if (node.constant != kVarious) return;
+      tile_entries_[node.tiles + rank_in(node.tile, place_in_node(block))] = constant;
+    });
+  }
 }
 
 void BlockIndex::add_tile(const Tile& tile, std::uint32_t constant) {
-  const bool odd = constants_[constant].above != background_.above;
-  if (tile.size >= kBigTile) {
-    const Index3 origin = block_of(block_of(tile.origin));
-    big_tiles_.push_back({origin, tile.size / kNodeSamples, constant});
-    if (std::find(big_sizes_.begin(), big_sizes_.end(), tile.size / kNodeSamples) ==
-        big_sizes_.end()) {
-      big_sizes_.push_back(tile.size / kNodeSamples);
+  if (is_big(tile)) {
+    const std::int32_t size = tile.size / kNodeSamples;
+    big_tiles_.push_back({block_of(block_of(tile.origin)), size, constant});
+    if (std::find(big_sizes_.begin(), big_sizes_.end(), size) == big_sizes_.end()) {
+      big_sizes_.push_back(size);
     }
     return;
   }
-  const Index3 first = block_of(tile.origin);
-  const std::int32_t n = tile.size / 8;
-  for (std::int32_t z = 0; z < n; ++z) {
-    for (std::int32_t y = 0; y < n; ++y) {
-      for (std::int32_t x = 0; x < n; ++x) {
-        const Index3 block = plus(first, x, y, z);
-        Node& node = nodes_[node_at(block_of(block))];
-        set(node.tile, place_in_node(block));
-        if (odd) set(node.odd, place_in_node(block));
-      }
-    }
-  }
-}
-
-/// Where the entry of a leaf or tile block is: behind those of the node's lower bits.
-std::uint32_t BlockIndex::entry_of(const Node& node, const Index3& block) {
-  const BitPlace p = place_in_node(block);
-  std::uint32_t rank = node.first;
-  for (std::size_t w = 0; w < p.word; ++w) {
-    rank += static_cast<std::uint32_t>(std::popcount(node.leaf[w] | node.tile[w]));
-  }
-  const std::uint64_t below = (std::uint64_t{1} << p.bit) - 1;
-  return rank +
-         static_cast<std::uint32_t>(std::popcount((node.leaf[p.word] | node.tile[p.word]) & below));
-}
-
-/// Puts the numbers of leaves and tiles behind their nodes, in the order of their bits.
-void BlockIndex::fill_entries(const LeafReader& reader) {
-  std::uint32_t n = 0;
-  for (Node& node : nodes_) {
-    node.first = n;
-    for (std::size_t w = 0; w < 8; ++w) {
-      n += static_cast<std::uint32_t>(std::popcount(node.leaf[w] | node.tile[w]));
-    }
-  }
-  entries_.resize(n);
-  const auto put = [&](const Index3& block, std::uint32_t number) {
-    const Node& node = *find(block_of(block));
-    entries_[entry_of(node, block)] = number;
-  };
-  for (std::size_t leaf = 0; leaf < reader.leaves().size(); ++leaf) {
-    put(block_of(reader.leaves()[leaf]), static_cast<std::uint32_t>(leaf));
-  }
-  for (std::size_t t = 0; t < reader.tiles().size(); ++t) {
-    const Tile& tile = reader.tiles()[t];
-    const Index3 first = block_of(tile.origin);
-    const std::int32_t width = tile.size >= kBigTile ? 0 : tile.size / 8;
-    for (std::int32_t z = 0; z < width; ++z) {
-      for (std::int32_t y = 0; y < width; ++y) {
-        for (std::int32_t x = 0; x < width; ++x) {
-          put(plus(first, x, y, z), static_cast<std::uint32_t>(t));
-        }
-      }
-    }
-  }
+  const bool odd = constants_[constant].above != background_.above;
+  for_each_block(tile, [&](const Index3& block) {
+    Node& node = nodes_[node_at(block_of(block))];
+    const bool same = node.constant == kNoTile || node.constant == constant;
+    node.constant = same ? constant : kVarious;
+    set(node.tile, place_in_node(block));
+    if (odd) set(node.odd, place_in_node(block));
+  });
 }
 
 const BlockIndex::Node* BlockIndex::find(const Index3& key) const {
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t s = hash_of(key) & mask; slots_[s] != 0; s = (s + 1) & mask) {
     const Node& node = nodes_[slots_[s] - 1];
-    if (node.key == key) return &node;
+    if (same(node.key, key)) return &node;
   }
   return nullptr;
 }
 
 std::uint32_t BlockIndex::node_at(const Index3& key) {
+  if (last_ < nodes_.size() && same(nodes_[last_].key, key)) return last_;
   if (const Node* node = find(key); node != nullptr) {
-    return static_cast<std::uint32_t>(node - nodes_.data());
+    return last_ = static_cast<std::uint32_t>(node - nodes_.data());
   }
   if (2 * (nodes_.size() + 1) > slots_.size()) grow();
   nodes_.emplace_back().key = key;
@@ -178,7 +208,7 @@ std::uint32_t BlockIndex::node_at(const Index3& key) {
   std::size_t s = hash_of(key) & mask;
   while (slots_[s] != 0) s = (s + 1) & mask;
   slots_[s] = static_cast<std::uint32_t>(nodes_.size());
-  return slots_[s] - 1;
+  return last_ = slots_[s] - 1;
 }
 
 void BlockIndex::grow() {
@@ -206,38 +236,58 @@ std::optional<std::uint32_t> BlockIndex::big_tile_at(const Index3& key) const {
 }
 
 Block BlockIndex::at(const Index3& block) const {
-  const Node* node = find(block_of(block));
+  const auto constant = [&](std::uint32_t n) {
+    return Block{Block::kConstant, constants_[n].value, constants_[n].above};
+  };
   const BitPlace p = place_in_node(block);
-  if (node != nullptr && (test(node->leaf, p) || test(node->tile, p))) {
-    const std::uint32_t rank = entry_of(*node, block);
+  if (const Node* node = find(block_of(block)); node != nullptr) {
     if (test(node->leaf, p)) {
-      return {entries_[rank], {}, false};
+      const std::uint64_t before = node->leaf[p.word] & ((std::uint64_t{1} << p.bit) - 1);
+      return {leaf_entries_[node->leaves + node->leaves_before[p.word] +
+                            static_cast<std::uint32_t>(std::popcount(before))],
+              {},
+              false};
     }
-    const Constant& c = constants_[entries_[rank]];
-    return {Block::kConstant, c.value, c.above};
+    if (!test(node->tile, p)) return constant(0);
+    return constant(node->constant != kVarious
+                        ? node->constant
+                        : tile_entries_[node->tiles + rank_in(node->tile, p)]);
   }
-  if (!big_tiles_.empty()) {
-    if (const auto constant = big_tile_at(block_of(block)); constant) {
-      return {Block::kConstant, constants_[*constant].value, constants_[*constant].above};
+  return constant(big_tile_at(block_of(block)).value_or(0));
+}
+
+void BlockIndex::set_sides(std::span<const LeafSide> leaves) {
+  const LeafSide usual = background_.above ? LeafSide::above : LeafSide::below;
+  for (Node& node : nodes_) {
+    const std::uint32_t* leaf = leaf_entries_.data() + node.leaves;
+    for (std::size_t w = 0; w < 8; ++w) {
+      for (std::uint64_t m = node.leaf[w]; m != 0; m &= m - 1) {
+        const LeafSide side = leaves[*leaf++];
+        const std::uint64_t bit = m & (~m + 1);
+        if (side == LeafSide::mixed) {
+          node.mixed[w] |= bit;
+        } else if (side != usual) {
+          node.odd[w] |= bit;
+        }
+      }
     }
   }
-  return {Block::kConstant, background_.value, background_.above};
 }
 
 BlockIndex::Sides BlockIndex::sides_of(const Index3& key) const {
   Sides s{};
   if (const Node* node = find(key); node != nullptr) {
-    s.leaf = node->leaf;
+    s.mixed = node->mixed;
     s.odd = node->odd;
   } else if (const auto constant = big_tile_at(key);
              constant && constants_[*constant].above != background_.above) {
     s.odd.fill(~std::uint64_t{0});
   }
-  for (std::size_t w = 0; w < 8; ++w) s.even[w] = ~(s.leaf[w] | s.odd[w]);
+  for (std::size_t w = 0; w < 8; ++w) s.even[w] = ~(s.mixed[w] | s.odd[w]);
   return s;
 }
 
-/// Nodes whose blocks may be candidates: those with leaves or odd blocks, the faces of odd big
+/// Nodes whose blocks may be candidates: those with mixed or odd blocks, the faces of odd big
 /// tiles, and the lower neighbours of both.
 std::vector<Index3> BlockIndex::candidate_nodes() const {
   std::vector<Index3> keys;
@@ -247,7 +297,7 @@ std::vector<Index3> BlockIndex::candidate_nodes() const {
   };
   for (const Node& node : nodes_) {
     std::uint64_t any = 0;
-    for (std::size_t w = 0; w < 8; ++w) any |= node.leaf[w] | node.odd[w];
+    for (std::size_t w = 0; w < 8; ++w) any |= node.mixed[w] | node.odd[w];
     if (any != 0) add_with_lower(node.key);
   }
   for (const BigTile& t : big_tiles_) {
@@ -266,31 +316,73 @@ std::vector<Index3> BlockIndex::candidate_nodes() const {
   return keys;
 }
 
-std::vector<Index3> BlockIndex::candidates() const {
-  std::vector<Index3> blocks;
-  for (const Index3& key : candidate_nodes()) {
-    std::array<Mask512, 8> leaf;
-    std::array<Mask512, 8> odd;
-    std::array<Mask512, 8> even;
-    for (std::int32_t n = 0; n < 8; ++n) {
-      const Sides s = sides_of(plus(key, n & 1, n >> 1 & 1, n >> 2));
-      const auto at = static_cast<std::size_t>(n);
-      leaf[at] = s.leaf;
-      odd[at] = s.odd;
-      even[at] = s.even;
+BlockIndex::NodeCandidates BlockIndex::candidates_in(const Index3& key) const {
+  std::array<Mask512, 8> mixed;
+  std::array<Mask512, 8> odd;
+  std::array<Mask512, 8> even;
+  for (std::int32_t n = 0; n < 8; ++n) {
+    const Sides s = sides_of(plus(key, n & 1, n >> 1 & 1, n >> 2));
+    const auto at = static_cast<std::size_t>(n);
+    mixed[at] = s.mixed;
+    odd[at] = s.odd;
+    even[at] = s.even;
+  }
+  NodeCandidates out{key, any_upwards(mixed), mixed[0], {}};
+  const Mask512 any_odd = any_upwards(odd);
+  const Mask512 any_even = any_upwards(even);
+  for (std::size_t w = 0; w < 8; ++w) out.blocks[w] |= any_odd[w] & any_even[w];
+  const std::array<Mask512, 8>& m = background_.above ? even : odd;
+  std::array<Mask512, 8> plane;  // both z: moved by nothing, x, y, x and y
+  for (std::size_t z = 0; z < 8; z += 4) {
+    plane[z] = m[z];
+    plane[z + 1] = from_x(m[z], m[z + 1]);
+    plane[z + 2] = from_y(m[z], m[z + 2]);
+    plane[z + 3] = from_y(plane[z + 1], from_x(m[z + 2], m[z + 3]));
+  }
+  for (std::size_t n = 0; n < 4; ++n) {
+    out.above[n] = plane[n];
+    out.above[n + 4] = from_z(plane[n], plane[n + 4]);
+  }
+  return out;
+}
+
+std::vector<SurfaceBlock> BlockIndex::candidates() const {
+  const std::vector<Index3> keys = candidate_nodes();
+  std::vector<SurfaceBlock> blocks;
+  std::vector<NodeCandidates> layer;
+  // A row of blocks runs through all nodes of a row of nodes, a plane of blocks through a layer.
+  const auto add_row = [&](const NodeCandidates& node, std::size_t w, unsigned y) {
+    for (std::uint64_t m = node.blocks[w] >> (8 * y) & 0xFFU; m != 0; m &= m - 1) {
+      const int x = std::countr_zero(m);
+      const unsigned bit = 8 * y + static_cast<unsigned>(x);
+      SurfaceBlock block;
+      block.at = plus({node.key[0] * 8, node.key[1] * 8, node.key[2] * 8}, x,
+                      static_cast<std::int32_t>(y), static_cast<std::int32_t>(w));
+      for (std::size_t n = 0; n < 8; ++n) {
+        block.above |= static_cast<std::uint8_t>((node.above[n][w] >> bit & 1U) << n);
+      }
+      block.bits = (node.mixed[w] >> bit & 1U) != 0 ? SurfaceBlock::kMixed
+                   : (block.above & 1U) != 0        ? SurfaceBlock::kAbove
+                                                    : SurfaceBlock::kBelow;
+      blocks.push_back(block);
     }
-    const Mask512 any_leaf = any_upwards(leaf);
-    const Mask512 any_odd = any_upwards(odd);
-    const Mask512 any_even = any_upwards(even);
+  };
+  for (std::size_t first = 0; first < keys.size();) {
+    std::size_t last = first;
+    layer.clear();
+    for (; last < keys.size() && keys[last][2] == keys[first][2]; ++last) {
+      layer.push_back(candidates_in(keys[last]));
+    }
     for (std::size_t w = 0; w < 8; ++w) {
-      for (std::uint64_t m = any_leaf[w] | (any_odd[w] & any_even[w]); m != 0; m &= m - 1) {
-        const std::int32_t bit = std::countr_zero(m);
-        blocks.push_back({key[0] * 8 + (bit & 7), key[1] * 8 + (bit >> 3),
-                          key[2] * 8 + static_cast<std::int32_t>(w)});
+      for (std::size_t row = 0, end = 0; row < layer.size(); row = end) {
+        while (end < layer.size() && layer[end].key[1] == layer[row].key[1]) ++end;
+        for (unsigned y = 0; y < 8; ++y) {
+          for (std::size_t node = row; node < end; ++node) add_row(layer[node], w, y);
+        }
       }
     }
+    first = last;
   }
-  std::sort(blocks.begin(), blocks.end(), before);
   return blocks;
 }
 
@@ -314,7 +406,8 @@ IndexBox BlockIndex::stored_blocks() const {
 }
 
 std::uint64_t BlockIndex::bytes() const {
-  return nodes_.capacity() * sizeof(Node) + (slots_.capacity() + entries_.capacity()) * 4 +
+  return nodes_.capacity() * sizeof(Node) +
+         (slots_.capacity() + leaf_entries_.capacity() + tile_entries_.capacity()) * 4 +
          constants_.capacity() * sizeof(Constant) + big_tiles_.capacity() * sizeof(BigTile);
 }
 

@@ -29,12 +29,31 @@ inline bool before(const Index3& a, const Index3& b) {
   return a[0] < b[0];
 }
 
+/// Equal. Faster than ==, which is a call of memcmp.
+inline bool same(const Index3& a, const Index3& b) {
+  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
+}
+
 /// What a block is.
 struct Block {
   static constexpr std::uint32_t kConstant = 0xFFFFFFFF;
   std::uint32_t leaf = kConstant;  ///< number of the leaf
   Scalar value;                    ///< of a constant block
   bool above = false;              ///< of a constant block
+};
+
+/// What the samples of a leaf are.
+enum class LeafSide : std::uint8_t { below, above, mixed };
+
+/// A block that may hold a surface.
+struct SurfaceBlock {
+  static constexpr std::uint32_t kMixed = 0xFFFFFFFD;  ///< to be replaced by a place
+  static constexpr std::uint32_t kBelow = 0xFFFFFFFE;
+  static constexpr std::uint32_t kAbove = 0xFFFFFFFF;
+  Index3 at{};
+  std::uint32_t bits = kBelow;   ///< where its sample bits are kept, or one of the above
+  std::uint16_t n_vertices = 0;  ///< on the edges that start in it
+  std::uint8_t above = 0;        ///< bit x + 2y + 4z: that upper neighbour is constant, and above
 };
 
 class BlockIndex {
@@ -44,9 +63,12 @@ class BlockIndex {
 
   [[nodiscard]] Block at(const Index3& block) const;
 
-  /// Every block whose own samples or those of its seven upper neighbours can differ: leaves and
-  /// their lower neighbours, and where constant blocks of either side meet. Ordered by (z, y, x).
-  [[nodiscard]] std::vector<Index3> candidates() const;
+  /// Says of each leaf what its samples are; before candidates().
+  void set_sides(std::span<const LeafSide> leaves);
+
+  /// Every block of which, or of whose seven upper neighbours, one is mixed, or some are above and
+  /// some below. Ordered by (z, y, x).
+  [[nodiscard]] std::vector<SurfaceBlock> candidates() const;
 
   /// Blocks (inclusive) that hold every leaf and tile, up to a node's width more.
   [[nodiscard]] IndexBox stored_blocks() const;
@@ -55,12 +77,18 @@ class BlockIndex {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
+  static constexpr std::uint32_t kVarious = 0xFFFFFFFF;
+  static constexpr std::uint32_t kNoTile = 0xFFFFFFFE;
   struct Node {
-    Index3 key{};             ///< block index / 8
-    Mask512 leaf{};           ///< blocks that are leaves
-    Mask512 tile{};           ///< blocks that are part of a tile
-    Mask512 odd{};            ///< constant blocks on the other side than the background
-    std::uint32_t first = 0;  ///< in entries_: leaf numbers and tile numbers, by rank
+    Index3 key{};                      ///< block index / 8
+    Mask512 leaf{};                    ///< blocks that are leaves
+    Mask512 mixed{};                   ///< leaves with samples on both sides
+    Mask512 tile{};                    ///< blocks that are part of a tile
+    Mask512 odd{};                     ///< not mixed, and on the other side than the background
+    std::uint32_t leaves = 0;          ///< in leaf_entries_: numbers of its leaves, by rank
+    std::uint32_t constant = kNoTile;  ///< of all its tiles, or kVarious
+    std::array<std::uint16_t, 8> leaves_before{};  ///< each word of `leaf`
+    std::uint32_t tiles = 0;  ///< in tile_entries_ where they are various, by rank
   };
   struct Constant {
     Scalar value;
@@ -75,19 +103,30 @@ class BlockIndex {
   std::uint32_t node_at(const Index3& key);
   [[nodiscard]] const Node* find(const Index3& key) const;
   [[nodiscard]] std::optional<std::uint32_t> big_tile_at(const Index3& key) const;
+  std::uint32_t constant_of(const Scalar& value, const Threshold& threshold);
+  void add_leaves(std::span<const Index3> origins);
+  void add_tiles(std::span<const Tile> tiles, const Threshold& threshold);
   void add_tile(const Tile& tile, std::uint32_t constant);
-  static std::uint32_t entry_of(const Node& node, const Index3& block);
-  void fill_entries(const LeafReader& reader);
+  void number_tiles(std::span<const Tile> tiles);
   void grow();
   struct Sides {
-    Mask512 leaf, odd, even;
+    Mask512 mixed, odd, even;
   };
   [[nodiscard]] Sides sides_of(const Index3& key) const;
   [[nodiscard]] std::vector<Index3> candidate_nodes() const;
+  /// The candidates of one node, and which of each one's upper neighbours are above.
+  struct NodeCandidates {
+    Index3 key;
+    Mask512 blocks, mixed;
+    std::array<Mask512, 8> above;
+  };
+  [[nodiscard]] NodeCandidates candidates_in(const Index3& key) const;
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> slots_;  ///< open addressing: node number + 1, 0 where free
-  std::vector<std::uint32_t> entries_;
+  std::uint32_t last_ = 0;            ///< node that was asked for last
+  std::vector<std::uint32_t> leaf_entries_;
+  std::vector<std::uint32_t> tile_entries_;
   std::vector<Constant> constants_;      ///< of tiles
   std::vector<BigTile> big_tiles_;       ///< ordered by origin
   std::vector<std::int32_t> big_sizes_;  ///< each size that occurs

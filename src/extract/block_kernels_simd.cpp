@@ -18,16 +18,18 @@ HWY_EXPORT(planes_of);
 HWY_EXPORT(find_edges);
 HWY_EXPORT(find_cells);
 HWY_EXPORT(count_block_triangles);
+HWY_EXPORT(list_edges);
+HWY_EXPORT(enter_ids);
 HWY_EXPORT(emit_block);
 }  // namespace
 
 Mask512 planes_of(const Mask512& x_slices) { return HWY_DYNAMIC_DISPATCH(planes_of)(x_slices); }
 
-BlockEdges find_edges(const BlockBits& above, const BlockBits& exists) {
+BlockEdges find_edges(const BlockBits& above, const BlockBits* exists) {
   return HWY_DYNAMIC_DISPATCH(find_edges)(above, exists);
 }
 
-Mask512 find_cells(const BlockBits& above, const BlockBits& exists) {
+Mask512 find_cells(const BlockBits& above, const BlockBits* exists) {
   return HWY_DYNAMIC_DISPATCH(find_cells)(above, exists);
 }
 
@@ -35,9 +37,18 @@ std::uint32_t count_block_triangles(const BlockBits& above, const Mask512& cells
   return HWY_DYNAMIC_DISPATCH(count_block_triangles)(above, cells);
 }
 
-std::size_t emit_block(const BlockBits& above, const Mask512& cells,
-                       const BlockNeighbours& neighbours, bool flip, std::uint32_t* out) {
-  return HWY_DYNAMIC_DISPATCH(emit_block)(above, cells, neighbours, flip, out);
+std::size_t list_edges(const BlockEdges& edges, std::uint16_t* out) {
+  return HWY_DYNAMIC_DISPATCH(list_edges)(edges, out);
+}
+
+void enter_ids(std::size_t neighbour, const BlockEdges& edges, std::uint32_t first,
+               IdTable& table) {
+  HWY_DYNAMIC_DISPATCH(enter_ids)(neighbour, edges, first, table);
+}
+
+std::size_t emit_block(const BlockBits& above, const Mask512& cells, const IdTable& table,
+                       bool flip, std::uint32_t* out) {
+  return HWY_DYNAMIC_DISPATCH(emit_block)(above, cells, table, flip, out);
 }
 
 }  // namespace mc::extraction

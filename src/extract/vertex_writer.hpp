@@ -102,6 +102,36 @@ class VertexWriter {
     }
   }
 
+  /// An edge, the samples at its ends, and the gradients there where they are wanted.
+  struct CutEdge {
+    LatticeEdge edge;
+    R a, b;
+    std::array<R, 3> lower_gradient, upper_gradient;
+  };
+  /// Adds n edges inside the box, edge_at(m) each.
+  template <class EdgeAt>
+  void write_inside(std::size_t n, EdgeAt&& edge_at) {
+    batch_.reserve(EdgeBatch<R>::kEnough, wants_gradients());
+    for (std::size_t m = 0; m < n;) {
+      if (batch_.n == EdgeBatch<R>::kEnough) flush();
+      const std::size_t end = std::min(n, m + EdgeBatch<R>::kEnough - batch_.n);
+      for (; m < end; ++m) {
+        const CutEdge cut = edge_at(m);
+        const std::size_t at = batch_.n++;
+        batch_.i[at] = cut.edge.lower[0];
+        batch_.j[at] = cut.edge.lower[1];
+        batch_.k[at] = cut.edge.lower[2];
+        batch_.axis[at] = cut.edge.axis;
+        batch_.a[at] = cut.a;
+        batch_.b[at] = cut.b;
+        for (std::size_t a = 0; wants_gradients() && a < 3; ++a) {
+          batch_.lower_gradient[a][at] = cut.lower_gradient[a];
+          batch_.upper_gradient[a][at] = cut.upper_gradient[a];
+        }
+      }
+    }
+  }
+
   /// Makes the vertices of the batch's edges. Of edges that lead out, a, b and gradients are zero.
   void flush() {
     if (batch_.n == 0) return;
