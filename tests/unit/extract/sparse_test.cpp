@@ -101,6 +101,30 @@ TEST(SparseEngine, GivesTheDenseEnginesSurface) {
   }
 }
 
+// More mixed leaves than a group of bits, than a run of blocks, and than edges are remembered of.
+TEST(SparseEngine, ThousandsOfLeavesAreOneSurface) {
+  const Index3 dims{96, 88, 88};
+  std::vector<float> samples(96 * 88 * 88, 0.F);
+  std::mt19937_64 random(21);
+  for (std::int32_t z = 0; z < dims[2]; z += 8) {
+    for (std::int32_t y = 0; y < dims[1]; y += 8) {
+      for (std::int32_t x = 0; x < dims[0]; x += 8) {
+        const std::uint64_t at = random();  // one sample above in the inside of each block
+        const auto within = [at](unsigned n) { return static_cast<int>(at >> (8 * n) & 3U) + 2; };
+        const std::int32_t row = (z + within(2)) * dims[1] + y + within(1);
+        samples[static_cast<std::size_t>(row * dims[0] + x + within(0))] = 1.F;
+      }
+    }
+  }
+  ExtractOptions o;
+  o.iso = 0.25;
+  const VolumeReader reader = owned(std::unique_ptr<LeafReader>(new MemoryLeaves(
+      samples, dims, {0, 0, 0}, 0.F, kSkewed, [](const Index3&) { return Keep::leaf; })));
+  const Collected got = collect(reader, o, {2, 0, false});
+  EXPECT_EQ(got.mesh.triangles.size(), 12U * 11 * 11 * 8);
+  expect_same_up_to_numbering(got.mesh, dense_reference(samples, dims, o));
+}
+
 template <class T>
 class SparseTypes : public testing::Test {};
 using GridTypes =
