@@ -15,10 +15,15 @@ namespace mc::extraction {
 
 class SharedPlanes {
  public:
-  /// Forgets everything and keeps at most `n_planes` from now on: as many as slabs can be at work.
+  /// Keeps at most `n_planes` from now on, none of them yet: as many as slabs can be at work.
   void reset(std::size_t n_planes) {
     slots_ = std::vector<Slot>(n_planes);
     turn_ = 0;
+  }
+
+  /// Forgets everything, but keeps the memory.
+  void forget() {
+    for (Slot& slot : slots_) slot.plane = kNone;
   }
 
   /// Copies the bits of a plane, if they are here, and forgets them: nobody else will ask.

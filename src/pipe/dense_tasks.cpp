@@ -42,6 +42,7 @@ class DenseTasks final : public TaskList {
     shared_.reset(2 * (n_slots + 1));
     for (Slot& slot : slots_) slot.extractor.share(&shared_);
   }
+  void forget() override { shared_.forget(); }
   [[nodiscard]] std::size_t n_tasks() const override {
     return static_cast<std::size_t>((extractor().n_layers() + layers_ - 1) / layers_);
   }

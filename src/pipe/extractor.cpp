@@ -117,6 +117,7 @@ void Extractor::extract(View3<const T> view, const ExtractOptions& options, cons
   try {
     Scratch::Setup& setup = s.set_up(field::type_of<T>(), view.dims, taken, to_world);
     setup.reader.look_at(view);
+    setup.tasks->forget();
     s.drive.run(*setup.tasks, setup.n_slots, s.run_options, true, s.sink, silent_progress(), {});
   } catch (...) {
     s.sink.start(mesh);  // what is there of it is no mesh

@@ -26,6 +26,8 @@ class TaskList {
   virtual ~TaskList() = default;
   /// Makes scratch for so many results at once; before make() or count().
   virtual void set_slots(std::size_t n_slots) = 0;
+  /// The samples may be others from now on: what was kept of them is void.
+  virtual void forget() {}
   [[nodiscard]] virtual std::size_t n_tasks() const = 0;
   /// Samples of task n, for progress.
   [[nodiscard]] virtual std::uint64_t samples(std::size_t n) const = 0;
