@@ -24,7 +24,9 @@ namespace {
 void prove(BenchSurface& surface, const BenchVolume& volume, const std::string& name) {
   surface.extract();
   std::string fault = fault_of(volume, surface.mesh());
-  if (fault.empty() && name == "sphere") fault = fault_of_sphere(surface.mesh(), volume.n);
+  if (fault.empty() && name == "sphere") {
+    fault = fault_of_sphere(surface.mesh(), volume.n, volume.type);
+  }
   if (!fault.empty()) throw Error(ErrorKind::internal, name, fault, "please report it");
 }
 

@@ -37,8 +37,8 @@ class BenchSurface {
 /// Cost     one scalar pass over the samples, one over the mesh.
 std::string fault_of(const BenchVolume& volume, const Mesh& mesh);
 
-/// Checks the area and volume of the sphere in [-1, 1]^3 against 4/3 pi r^3. Returns what is wrong,
-/// or "".
-std::string fault_of_sphere(const Mesh& mesh, std::int32_t n);
+/// Checks the area and volume of the sphere in [-1, 1]^3, from n samples an axis of a type, against
+/// 4/3 pi r^3. Returns what is wrong, or "".
+std::string fault_of_sphere(const Mesh& mesh, std::int32_t n, SampleType type);
 
 }  // namespace mc::cli

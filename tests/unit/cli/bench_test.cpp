@@ -41,7 +41,7 @@ TEST(BenchSurface, IsRightForEveryType) {
     const BenchVolume volume = make_bench_volume("sphere", kSize, type);
     const Mesh mesh = mesh_of(volume);
     EXPECT_EQ(fault_of(volume, mesh), "") << sample_name(type);
-    EXPECT_EQ(fault_of_sphere(mesh, kSize), "") << sample_name(type);
+    EXPECT_EQ(fault_of_sphere(mesh, kSize, type), "") << sample_name(type);
   }
 }
 
@@ -92,7 +92,14 @@ TEST(BenchSphere, OfAnotherSizeIsRefused) {
   const BenchVolume volume = make_bench_volume("sphere", 64, SampleType::f32);
   Mesh mesh = mesh_of(volume);
   for (auto& p : mesh.positions) p[0] *= 1.05F;
-  EXPECT_THAT(fault_of_sphere(mesh, 64), StartsWith("area "));
+  EXPECT_THAT(fault_of_sphere(mesh, 64, SampleType::f32), StartsWith("area "));
+}
+
+TEST(BenchSphere, OfFewLevelsIsAStair) {
+  const BenchVolume volume = make_bench_volume("sphere", 512, SampleType::u8);
+  const Mesh mesh = mesh_of(volume);
+  EXPECT_EQ(fault_of_sphere(mesh, 512, SampleType::u8), "");
+  EXPECT_THAT(fault_of_sphere(mesh, 512, SampleType::f32), StartsWith("area "));
 }
 
 TEST(BenchField, FillsAnIntegersRange) {
