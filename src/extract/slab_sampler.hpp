@@ -145,8 +145,11 @@ class SlabGatherer {
     const std::ptrdiff_t upper_behind = between ? plane(k + 2) - plane(k + 1) : behind;
     const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_), behind};
     // An edge whose ends both have neighbours on all sides; unsigned, so that one test is enough.
-    const auto inner_i = static_cast<std::uint32_t>(box.extent(0) - 3);
-    const auto inner_j = static_cast<std::uint32_t>(box.extent(1) - 3);
+    const auto inner = [](std::int64_t extent) {
+      return static_cast<std::uint32_t>(std::max<std::int64_t>(0, extent - 3));
+    };
+    const std::uint32_t inner_i = inner(box.extent(0));
+    const std::uint32_t inner_j = inner(box.extent(1));
     for (std::size_t e = 0; e < batch.n; ++e) {
       if (static_cast<std::uint32_t>(i[e] - box.lo[0] - 1) >= inner_i ||
           static_cast<std::uint32_t>(j[e] - box.lo[1] - 1) >= inner_j) {

@@ -80,6 +80,15 @@ TYPED_TEST(DenseEngine, EqualsTheReferenceInRowsOfSeveralWords) {
   compare_all<TypeParam>({131, 4, 3}, {{1, 1, false}});
 }
 
+// Thin volumes have no sample with neighbours on all sides.
+TEST(DenseEngineFloat, ThinVolumesEqualTheReference) {
+  for (const std::int32_t thin : {2, 3, 4}) {
+    for (const Index3 dims : {Index3{thin, 8, 7}, Index3{8, thin, 7}, Index3{8, 7, thin}}) {
+      compare_all<float>(dims, {{1, 0, false}});
+    }
+  }
+}
+
 TEST(DenseEngineFloat, DoesNotDependOnThreadsOrSlabs) {
   std::vector<How> hows;
   for (const int threads : {1, 2, 3, 7}) {
