@@ -224,8 +224,7 @@ struct PlaceTable {
     for (std::size_t c = 0; c < 256; ++c) {
       const CaseRow& row = kCases[c];
       for (std::size_t n = 0; n < 15; ++n) {
-        const std::size_t turned = flip && n % 3 != 0 ? n + 3 - 2 * (n % 3) : n;
-        const EdgeEnds ends = edge_ends(row.edges[turned]);
+        const EdgeEnds ends = edge_ends(edge_at(row, n, flip));
         const auto corner = static_cast<std::size_t>(ends.corner);
         rows[c][n] = static_cast<std::uint16_t>(
             static_cast<std::size_t>(ends.axis) * IdTable::kAxis + (corner & 1U) +

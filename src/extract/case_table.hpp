@@ -56,6 +56,11 @@ constexpr EdgeEnds edge_ends(int edge) {
   }
 }
 
+/// The edge at place n of a row's triangles, or of its triangles turned round.
+constexpr std::uint8_t edge_at(const CaseRow& row, std::size_t n, bool flip) {
+  return row.edges[flip && n % 3 != 0 ? n + 3 - 2 * (n % 3) : n];
+}
+
 /// Row n holds case n; computed by the compiler.
 extern const std::array<CaseRow, 256> kCases;
 

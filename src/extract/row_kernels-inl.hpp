@@ -248,8 +248,7 @@ struct LaneTable {
     for (std::size_t c = 0; c < 256; ++c) {
       const CaseRow& row = kCases[c];
       for (std::size_t n = 0; n < 15; ++n) {
-        const std::size_t turned = flip && n % 3 != 0 ? n + 3 - 2 * (n % 3) : n;
-        rows[c][n] = lane_of_edge(row.edges[turned]);
+        rows[c][n] = lane_of_edge(edge_at(row, n, flip));
       }
       rows[c][15] = static_cast<std::uint8_t>(3 * row.n_triangles);
     }

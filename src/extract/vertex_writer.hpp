@@ -79,35 +79,30 @@ class VertexWriter {
 
   [[nodiscard]] bool wants_gradients() const { return rules_.normals == Normals::gradient; }
 
-  /// Adds one edge. Call flush() after the last.
-  void write(const LatticeEdge& e) {
-    if (batch_.n == EdgeBatch<R>::kEnough) flush();
-    batch_.reserve(EdgeBatch<R>::kEnough, wants_gradients());
-    const std::size_t n = batch_.n++;
-    batch_.i[n] = e.lower[0];
-    batch_.j[n] = e.lower[1];
-    batch_.k[n] = e.lower[2];
-    batch_.axis[n] = e.axis;
-    const bool inside = vertices_.leads_out(e) == 0;
-    const Index3 upper = step(e.lower, e.axis);
-    batch_.a[n] = inside ? sampler_.at(e.lower) : R{};
-    batch_.b[n] = inside ? sampler_.at(upper) : R{};
-    if (wants_gradients()) {
-      const auto lower_gradient = inside ? vertices_.gradient(e.lower) : std::array<R, 3>{};
-      const auto upper_gradient = inside ? vertices_.gradient(upper) : std::array<R, 3>{};
-      for (std::size_t a = 0; a < 3; ++a) {
-        batch_.lower_gradient[a][n] = lower_gradient[a];
-        batch_.upper_gradient[a][n] = upper_gradient[a];
-      }
-    }
-  }
-
   /// An edge, the samples at its ends, and the gradients there where they are wanted.
   struct CutEdge {
     LatticeEdge edge;
     R a, b;
     std::array<R, 3> lower_gradient, upper_gradient;
   };
+
+  /// Adds one edge. Call flush() after the last.
+  void write(const LatticeEdge& e) {
+    if (batch_.n == EdgeBatch<R>::kEnough) flush();
+    batch_.reserve(EdgeBatch<R>::kEnough, wants_gradients());
+    CutEdge cut{e, {}, {}, {}, {}};
+    if (vertices_.leads_out(e) == 0) {
+      const Index3 upper = step(e.lower, e.axis);
+      cut.a = sampler_.at(e.lower);
+      cut.b = sampler_.at(upper);
+      if (wants_gradients()) {
+        cut.lower_gradient = vertices_.gradient(e.lower);
+        cut.upper_gradient = vertices_.gradient(upper);
+      }
+    }
+    append(cut);
+  }
+
   /// Adds n edges inside the box, edge_at(m) each.
   template <class EdgeAt>
   void write_inside(std::size_t n, EdgeAt&& edge_at) {
@@ -115,20 +110,7 @@ class VertexWriter {
     for (std::size_t m = 0; m < n;) {
       if (batch_.n == EdgeBatch<R>::kEnough) flush();
       const std::size_t end = std::min(n, m + EdgeBatch<R>::kEnough - batch_.n);
-      for (; m < end; ++m) {
-        const CutEdge cut = edge_at(m);
-        const std::size_t at = batch_.n++;
-        batch_.i[at] = cut.edge.lower[0];
-        batch_.j[at] = cut.edge.lower[1];
-        batch_.k[at] = cut.edge.lower[2];
-        batch_.axis[at] = cut.edge.axis;
-        batch_.a[at] = cut.a;
-        batch_.b[at] = cut.b;
-        for (std::size_t a = 0; wants_gradients() && a < 3; ++a) {
-          batch_.lower_gradient[a][at] = cut.lower_gradient[a];
-          batch_.upper_gradient[a][at] = cut.upper_gradient[a];
-        }
-      }
+      for (; m < end; ++m) append(edge_at(m));
     }
   }
 
@@ -150,6 +132,20 @@ class VertexWriter {
   }
 
  private:
+  void append(const CutEdge& cut) {
+    const std::size_t at = batch_.n++;
+    batch_.i[at] = cut.edge.lower[0];
+    batch_.j[at] = cut.edge.lower[1];
+    batch_.k[at] = cut.edge.lower[2];
+    batch_.axis[at] = cut.edge.axis;
+    batch_.a[at] = cut.a;
+    batch_.b[at] = cut.b;
+    for (std::size_t a = 0; wants_gradients() && a < 3; ++a) {
+      batch_.lower_gradient[a][at] = cut.lower_gradient[a];
+      batch_.upper_gradient[a][at] = cut.upper_gradient[a];
+    }
+  }
+
   void cut_outer_edges() {
     for (std::size_t e = 0; e < batch_.n; ++e) {
       const int out = vertices_.leads_out(batch_.edge(e));
