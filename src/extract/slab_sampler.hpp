@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "extract/edge_vertex.hpp"
+#include "extract/gather_kernels.hpp"
 #include "extract/vertex_writer.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
@@ -56,18 +57,14 @@ class SlabGatherer {
   /// All edges start in plane k and, unless `capped`, lie in the box. Of those that lead out of it
   /// the samples are zero.
   void gather(EdgeBatch<R>& batch, std::int32_t k, bool capped) const {
+    const Gathered done = gather_at_once(batch, k);
+    for (std::size_t f = 0; f < done.n_failed; ++f) gather_one(batch, batch.failed[f]);
     if (capped) {
-      for (std::size_t e = 0; e < batch.n; ++e) {
-        if (vertices_.leads_out(batch.edge(e)) == 0) {
-          gather_one(batch, e);
-        } else {
-          clear(batch, e);
-        }
-      }
-      return;
+      for (std::size_t e = done.n; e < batch.n; ++e) gather_one(batch, e);
+    } else {
+      gather_values(batch, k, done.n);
+      if (with_gradients_) gather_gradients(batch, k, done.n);
     }
-    gather_values(batch, k);
-    if (with_gradients_) gather_gradients(batch, k);
   }
 
  private:
@@ -85,7 +82,39 @@ class SlabGatherer {
     return static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(i) * sizeof(T);
   }
 
-  void gather_values(EdgeBatch<R>& batch, std::int32_t k) const {
+  /// As many edges as gather_edges() takes, from the first on.
+  Gathered gather_at_once(EdgeBatch<R>& batch, std::int32_t k) const {
+    if constexpr (std::is_same_v<R, float>) {
+      const IndexBox& box = sampler_.box();
+      const bool between = batch.axis[0] == 2;
+      const std::int32_t ring = with_gradients_ ? 1 : 0;
+      const std::int32_t last = k + (between ? 1 : 0);
+      if (k - ring < box.lo[2] || last + ring > box.hi[2]) return {};
+      const PlaneSamples planes{.type = field::type_of<T>(),
+                                .swap = Swap,
+                                .before = with_gradients_ ? plane(k - 1) : nullptr,
+                                .here = plane(k),
+                                .after = k < last + ring ? plane(k + 1) : nullptr,
+                                .after_next = k + 1 < last + ring ? plane(k + 2) : nullptr,
+                                .row_bytes = stride_,
+                                .lo = {box.lo[0], box.lo[1]},
+                                .hi = {box.hi[0], box.hi[1]}};
+      auto& lower = batch.lower_gradient;
+      auto& upper = batch.upper_gradient;
+      const EdgePlaces edges{batch.i.data(), batch.j.data(), batch.k.data(), batch.axis.data(),
+                             batch.n};
+      return gather_edges(planes, edges, between, with_gradients_,
+                          {.a = batch.a.data(),
+                           .b = batch.b.data(),
+                           .lower_gradient = {lower[0].data(), lower[1].data(), lower[2].data()},
+                           .upper_gradient = {upper[0].data(), upper[1].data(), upper[2].data()},
+                           .failed = batch.failed.data()});
+    } else {
+      return {};
+    }
+  }
+
+  void gather_values(EdgeBatch<R>& batch, std::int32_t k, std::size_t first) const {
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
     const std::int32_t* const axis = batch.axis.data();
     R *const a = batch.a.data(), *const b = batch.b.data();
@@ -93,7 +122,7 @@ class SlabGatherer {
     const bool between = axis[0] == 2;
     const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_),
                                         between ? plane(k + 1) - lower : 0};
-    for (std::size_t e = 0; e < batch.n; ++e) {
+    for (std::size_t e = first; e < batch.n; ++e) {
       const std::byte* const at = lower + offset(i[e], j[e]);
       a[e] = load(at);
       b[e] = load(at + to_upper[axis[e]]);
@@ -102,6 +131,10 @@ class SlabGatherer {
 
   void gather_one(EdgeBatch<R>& batch, std::size_t e) const {
     const LatticeEdge edge = batch.edge(e);
+    if (vertices_.leads_out(edge) != 0) {
+      clear(batch, e);
+      return;
+    }
     const Index3 upper = step(edge.lower, edge.axis);
     batch.a[e] = sampler_.at(edge.lower);
     batch.b[e] = sampler_.at(upper);
@@ -125,11 +158,11 @@ class SlabGatherer {
     }
   }
 
-  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k) const {
+  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k, std::size_t first) const {
     const IndexBox& box = sampler_.box();
     const bool between = batch.axis[0] == 2;
     if (k <= box.lo[2] || k + (between ? 1 : 0) >= box.hi[2]) {
-      for (std::size_t e = 0; e < batch.n; ++e) gather_gradients_of(batch, e);
+      for (std::size_t e = first; e < batch.n; ++e) gather_gradients_of(batch, e);
       return;
     }
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
@@ -150,7 +183,7 @@ class SlabGatherer {
     };
     const std::uint32_t inner_i = inner(box.extent(0));
     const std::uint32_t inner_j = inner(box.extent(1));
-    for (std::size_t e = 0; e < batch.n; ++e) {
+    for (std::size_t e = first; e < batch.n; ++e) {
       if (static_cast<std::uint32_t>(i[e] - box.lo[0] - 1) >= inner_i ||
           static_cast<std::uint32_t>(j[e] - box.lo[1] - 1) >= inner_j) {
         gather_gradients_of(batch, e);

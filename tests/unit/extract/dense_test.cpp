@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cstring>
+#include <stdexcept>
 #include <tuple>
 
 #include "extract/simd_target.hpp"
+#include "mc/extract.hpp"
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_fields.hpp"
@@ -78,6 +83,44 @@ TYPED_TEST(DenseEngine, EqualsTheReference) {
 
 TYPED_TEST(DenseEngine, EqualsTheReferenceInRowsOfSeveralWords) {
   compare_all<TypeParam>({131, 4, 3}, {{1, 1, false}});
+}
+
+/// Memory that ends where a page ends that must not be touched.
+class GuardedMemory {
+ public:
+  explicit GuardedMemory(std::size_t n_bytes)
+      : page_(static_cast<std::size_t>(sysconf(_SC_PAGESIZE))),
+        n_mapped_((n_bytes + page_ - 1) / page_ * page_ + page_),
+        base_(static_cast<std::byte*>(
+            mmap(nullptr, n_mapped_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0))),
+        first_(base_ + n_mapped_ - page_ - n_bytes) {
+    if (base_ == MAP_FAILED || mprotect(base_ + n_mapped_ - page_, page_, PROT_NONE) != 0) {
+      throw std::runtime_error("no guarded memory");
+    }
+  }
+  ~GuardedMemory() { munmap(base_, n_mapped_); }
+  GuardedMemory(const GuardedMemory&) = delete;
+  GuardedMemory& operator=(const GuardedMemory&) = delete;
+  [[nodiscard]] std::byte* data() const { return first_; }
+
+ private:
+  std::size_t page_, n_mapped_;
+  std::byte *base_, *first_;
+};
+
+// Several samples are loaded at once, or more bytes than one has: never past the last.
+TYPED_TEST(DenseEngine, ReadsNothingPastTheLastSample) {
+  const Index3 dims{40, 9, 5};
+  const auto samples = random_field<TypeParam>(dims, Noise::white, 3);
+  const GuardedMemory memory(samples.size() * sizeof(TypeParam));
+  std::memcpy(memory.data(), samples.data(), samples.size() * sizeof(TypeParam));
+  for (const Normals normals : {Normals::none, Normals::gradient}) {
+    ExtractOptions o;
+    o.iso = test_iso<TypeParam>();
+    o.normals = normals;
+    const View3<const TypeParam> view(reinterpret_cast<const TypeParam*>(memory.data()), dims);
+    expect_same(extract(view, o), reference_extract(samples, dims, o));
+  }
 }
 
 // Thin volumes have no sample with neighbours on all sides.

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "extract/vertex_kernels.hpp"
+#include "mc/field.hpp"
+
+// The samples around many edges at once, by the processor's gathers. Compiled for every SIMD target
+// and chosen at run time.
+
+namespace mc::extraction {
+
+/// The planes around edges that start in plane k: of whole rows that follow each other.
+struct PlaneSamples {
+  SampleType type = SampleType::f32;
+  bool swap = false;
+  const std::byte* before = nullptr;      ///< plane k - 1; for gradients only
+  const std::byte* here = nullptr;        ///< plane k
+  const std::byte* after = nullptr;       ///< plane k + 1; for gradients and k-edges only
+  const std::byte* after_next = nullptr;  ///< plane k + 2; for gradients of k-edges only
+  std::size_t row_bytes = 0;
+  std::array<std::int32_t, 2> lo{}, hi{};  ///< i and j of the first and the last sample
+};
+
+/// Where gather_edges() puts what it finds.
+struct EdgeSamples {
+  float *a = nullptr, *b = nullptr;                      ///< samples at the lower and upper end
+  std::array<float*, 3> lower_gradient, upper_gradient;  ///< per step of the lattice
+  std::uint32_t* failed = nullptr;                       ///< room for a number each
+};
+
+struct Gathered {
+  std::size_t n = 0;         ///< edges looked at, from the first on
+  std::size_t n_failed = 0;  ///< of these
+};
+
+/// Gathers the samples at the ends of i- and j-edges, or of k-edges if `between`, and central
+/// differences there if `gradients`. Lists those edges of which an end, or a neighbour of an end,
+/// lies outside the planes. Looks at as many edges as whole vectors take: at none where the target
+/// has no gathers, the sample type is none of u8, i8, u16, i16 and f32, or planes are too small for
+/// neighbours or too large for 32-bit offsets.
+Gathered gather_edges(const PlaneSamples& planes, const EdgePlaces& edges, bool between,
+                      bool gradients, const EdgeSamples& out);
+
+}  // namespace mc::extraction
