@@ -92,20 +92,27 @@ HWY_INLINE F chosen(W h, F yes, F no) {
                      hn::IfNegativeThenElse(sign, hn::BitCast(d, yes), hn::BitCast(d, no)));
 }
 
+// The cosine and sine of 22.5 degrees.
+constexpr float kMainGradient2 = 0.923879533F;
+constexpr float kSideGradient2 = 0.382683432F;
+
 /// Eight unit gradients at odd multiples of 22.5 degrees, none along an axis.
 HWY_INLINE F gradient2(W hash, F x, F y) {
   const F u = chosen(hash, y, x);
   const F v = chosen(hash, x, y);
-  return flipped<29>(u, hash) * set(0.923879533F) + flipped<30>(v, hash) * set(0.382683432F);
+  return flipped<29>(u, hash) * set(kMainGradient2) + flipped<30>(v, hash) * set(kSideGradient2);
+}
+
+/// Whether z is the second coordinate that gradient3 takes: in the highest bit.
+HWY_INLINE W takes_z(W hash) {
+  return (hash ^ hn::ShiftLeft<1>(hash)) | (hash & hn::ShiftLeft<3>(hash));
 }
 
 /// The twelve edge directions of a cube, four of them twice. With h, the hash's four highest bits:
 /// u is x below 8, else y; v is y below 4, x for 12 and 14, else z.
 HWY_INLINE F gradient3(W hash, F x, F y, F z) {
   const F u = chosen(hash, y, x);
-  const F other = chosen(hash, x, y);
-  const W takes_z = (hash ^ hn::ShiftLeft<1>(hash)) | (hash & hn::ShiftLeft<3>(hash));
-  const F v = chosen(takes_z, z, other);
+  const F v = chosen(takes_z(hash), z, chosen(hash, x, y));
   return flipped<28>(u, hash) + flipped<29>(v, hash);
 }
 

@@ -15,6 +15,8 @@
 
 #include "graph/hash.hpp"
 #include "graph/lanes-inl.hpp"
+#include "graph/perlin-inl.hpp"
+#include "graph/perlin_run-inl.hpp"
 #include "graph/permutation.hpp"
 #include "graph/rows.hpp"
 
@@ -27,58 +29,8 @@ namespace HWY_NAMESPACE {
 namespace {
 
 // The largest value of the raw noise, over all positions and gradients, scales to 1.
-constexpr float kPerlin2Scale = 1.5132795F;
-constexpr float kPerlin3Scale = 0.96492142F;
 constexpr float kSimplex2Scale = 100.0401F;
 constexpr float kSimplex3Scale = 76.88075F;
-
-HWY_INLINE F perlin2(F px, F py, W seed) {
-  const Split x = split(px);
-  const Split y = split(py);
-  const W x0 = x.cell * set(kPrimeX);
-  const W x1 = x0 + set(kPrimeX);
-  const W y0 = seed ^ (y.cell * set(kPrimeY));
-  const W y1 = seed ^ (y.cell * set(kPrimeY) + set(kPrimeY));
-  const F ax = x.rest;
-  const F bx = ax - set(1.0F);
-  const F ay = y.rest;
-  const F by = ay - set(1.0F);
-  const F u = fade(ax);
-  const F near = lerp(u, gradient2(hash_of(x0 ^ y0), ax, ay), gradient2(hash_of(x1 ^ y0), bx, ay));
-  const F far = lerp(u, gradient2(hash_of(x0 ^ y1), ax, by), gradient2(hash_of(x1 ^ y1), bx, by));
-  return lerp(fade(ay), near, far) * set(kPerlin2Scale);
-}
-
-/// The cell's edge along x: both gradients there, blended.
-struct EdgeAlongX {
-  W x0, x1;  // the ends' primed cells
-  F ax, bx;  // the sample as seen from them
-  F blend;
-  HWY_INLINE F at(W yz, F y, F z) const {
-    return lerp(blend, gradient3(hash_of(x0 ^ yz), ax, y, z),
-                gradient3(hash_of(x1 ^ yz), bx, y, z));
-  }
-};
-
-HWY_INLINE F perlin3(F px, F py, F pz, W seed) {
-  const Split x = split(px);
-  const Split y = split(py);
-  const Split z = split(pz);
-  const W x0 = x.cell * set(kPrimeX);
-  const W y0 = seed ^ (y.cell * set(kPrimeY));
-  const W y1 = seed ^ (y.cell * set(kPrimeY) + set(kPrimeY));
-  const W z0 = z.cell * set(kPrimeZ);
-  const W z1 = z0 + set(kPrimeZ);
-  const F ay = y.rest;
-  const F by = ay - set(1.0F);
-  const F az = z.rest;
-  const F bz = az - set(1.0F);
-  const EdgeAlongX edge{x0, x0 + set(kPrimeX), x.rest, x.rest - set(1.0F), fade(x.rest)};
-  const F v = fade(ay);
-  const F near = lerp(v, edge.at(y0 ^ z0, ay, az), edge.at(y1 ^ z0, by, az));
-  const F far = lerp(v, edge.at(y0 ^ z1, ay, bz), edge.at(y1 ^ z1, by, bz));
-  return lerp(fade(az), near, far) * set(kPerlin3Scale);
-}
 
 /// (1/2 - r^2)^4, 0 outside.
 HWY_INLINE F kernel(F r2) {
@@ -209,9 +161,16 @@ void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size
   const W seed = set(instruction.seed);
   switch (instruction.op) {
     case Op::perlin2:
+      if (stays(b, n) && rises_slowly(a, frequency, n)) {
+        return perlin2_run(a, b[0] * frequency, frequency, seed, n, out);
+      }
       return for_each_vector(a, b, frequency, n, out,
                              [&](F x, F y) HWY_ATTR { return perlin2(x, y, seed); });
     case Op::perlin3:
+      if (stays(b, n) && stays(c, n) && rises_slowly(a, frequency, n) &&
+          !(is_whole(b[0] * frequency) && is_whole(c[0] * frequency))) {
+        return perlin3_run(a, b[0] * frequency, c[0] * frequency, frequency, seed, n, out);
+      }
       return for_each_vector(a, b, c, frequency, n, out,
                              [&](F x, F y, F z) HWY_ATTR { return perlin3(x, y, z, seed); });
     case Op::simplex2:

@@ -7,8 +7,9 @@
 #include "kernel_bench.hpp"
 #include "support/noise_twins.hpp"
 
-// The noises over rows of samples, each compared to the bit with its plain twin. The rows lie
-// askew, as a warp leaves them: every coordinate changes from sample to sample.
+// The noises over rows of samples, each compared to the bit with its plain twin. Rows lie along x,
+// as those of a lattice do; or askew, as a warp leaves them: every coordinate changes from sample
+// to sample.
 
 namespace mc::bench {
 
@@ -25,13 +26,13 @@ constexpr std::uint32_t kSeed = 1337;
 struct Rows {
   std::vector<float> x, y, z, out;
 
-  Rows() : out(kRows * kPiece) {
+  explicit Rows(float askew) : out(kRows * kPiece) {
     for (std::size_t n = 0; n < out.size(); ++n) {
       const auto i = static_cast<float>(n % kPiece);
       const auto j = static_cast<float>(n / kPiece);
       x.push_back(i * 0.173F - 3.1F);
-      y.push_back(j * 0.31F + i * 0.021F);
-      z.push_back(j * 0.29F - i * 0.017F - 5);
+      y.push_back(j * 0.31F + i * 0.021F * askew);
+      z.push_back(j * 0.29F - i * 0.017F * askew - 5);
     }
   }
   void run(const Instruction& instruction) {
@@ -51,11 +52,13 @@ struct Rows {
 
 template <class Twin>
 void add_noise(const std::string& name, Op op, const Twin& noise) {
-  const auto rows = std::make_shared<Rows>();
   const Instruction instruction{.op = op, .n_in = 3, .seed = kSeed, .p = {1}};
-  add_kernel(
-      name, "points", kRows * kPiece, [=] { rows->run(instruction); },
-      [=] { return rows->right(noise); });
+  for (const float askew : {0.0F, 1.0F}) {
+    const auto rows = std::make_shared<Rows>(askew);
+    add_kernel(
+        name + (askew == 0 ? "/along_x" : "/askew"), "points", kRows * kPiece,
+        [=] { rows->run(instruction); }, [=] { return rows->right(noise); });
+  }
 }
 
 }  // namespace
