@@ -54,7 +54,6 @@ void Machine::run(const Instruction& instruction) {
   const float* a = row(instruction.in[0]);
   const float* b = row(instruction.in[1]);
   const float* c = row(instruction.in[2]);
-  const float frequency = instruction.p[0];
   switch (instruction.op) {
     case Op::x:
       std::copy_n(x_.begin(), n_, out);
@@ -66,15 +65,11 @@ void Machine::run(const Instruction& instruction) {
       std::fill_n(out, n_, z_);
       return;
     case Op::perlin2:
-      return perlin2_row(a, b, frequency, instruction.seed, n_, out);
     case Op::perlin3:
-      return perlin3_row(a, b, c, frequency, instruction.seed, n_, out);
     case Op::simplex2:
-      return simplex2_row(a, b, frequency, instruction.seed, n_, out);
     case Op::simplex3:
-      return simplex3_row(a, b, c, frequency, instruction.seed, n_, out);
     case Op::unity2:
-      return unity2_row(a, b, frequency, n_, out);
+      return gradient_row(instruction, a, b, c, n_, out);
     case Op::sphere:
     case Op::box:
     case Op::plane:

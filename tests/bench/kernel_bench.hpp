@@ -61,5 +61,6 @@ inline std::vector<double> gyroid_plane(std::int32_t k) {
 void add_classification();
 void add_cells();
 void add_vertices();
+void add_noises();
 
 }  // namespace mc::bench

@@ -5,6 +5,7 @@ int main(int argc, char** argv) {
   mc::bench::add_classification();
   mc::bench::add_cells();
   mc::bench::add_vertices();
+  mc::bench::add_noises();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();

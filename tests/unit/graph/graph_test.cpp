@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "extract/simd_target.hpp"
 #include "graph/float_math.hpp"
 #include "unit/graph/graph_support.hpp"
 
@@ -196,33 +197,40 @@ struct Golden {
   std::uint64_t hash;
 };
 
-// The formulas are final: whoever makes them faster must leave these alone. Inputs are the
-// coordinates; the lattice has negative, zero and large places.
-TEST(Graph, FormulasKeepTheirBits) {
+// The formulas are final: whoever makes them faster must leave these alone, on every SIMD target.
+// Inputs are the coordinates; the lattice has negative, zero and large places.
+std::vector<float> golden_values(const Golden& golden) {
+  Graph graph({.seed = 1337, .iso = 0.25F});
+  std::vector<NodeId> inputs;
+  const NodeType axes[] = {NodeType::x, NodeType::y, NodeType::z};
+  const int n_inputs = golden.name[0] - '0';
+  for (int n = 0; n < n_inputs; ++n) {
+    inputs.push_back(graph.add(make(axes[n])));
+  }
+  Node node = make(golden.type, inputs, golden.numbers);
+  node.seed = 7;
+  node.octaves = 4;
+  if (std::string_view(golden.name).ends_with(" xz")) {
+    node.dims = Dims::xz;
+  }
+  if (golden.type == NodeType::fbm || golden.type == NodeType::warp) {
+    node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
+  }
+  return sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83}, {67, 9, 11});
+}
+
+TEST(Graph, FormulasKeepTheirBitsOnEverySimdTarget) {
   const Golden golden[] = {
 #include "unit/graph/golden_bits.inc"
   };
-  for (const Golden& g : golden) {
-    Graph graph({.seed = 1337, .iso = 0.25F});
-    std::vector<NodeId> inputs;
-    const NodeType axes[] = {NodeType::x, NodeType::y, NodeType::z};
-    const int n_inputs = g.name[0] - '0';
-    for (int n = 0; n < n_inputs; ++n) {
-      inputs.push_back(graph.add(make(axes[n])));
+  for (const std::string& target : extraction::simd_targets()) {
+    ASSERT_TRUE(extraction::set_simd_target(target));
+    for (const Golden& g : golden) {
+      const std::uint64_t hash = hash_bits(golden_values(g));
+      EXPECT_EQ(hash, g.hash) << target << " " << g.name << " 0x" << std::hex << hash;
     }
-    Node node = make(g.type, inputs, g.numbers);
-    node.seed = 7;
-    node.octaves = 4;
-    if (std::string_view(g.name).ends_with(" xz")) {
-      node.dims = Dims::xz;
-    }
-    if (g.type == NodeType::fbm || g.type == NodeType::warp) {
-      node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
-    }
-    const auto values =
-        sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83}, {67, 9, 11});
-    EXPECT_EQ(hash_bits(values), g.hash) << g.name << " 0x" << std::hex << hash_bits(values);
   }
+  extraction::reset_simd_target();
 }
 
 }  // namespace

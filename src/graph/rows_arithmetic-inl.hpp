@@ -1,4 +1,16 @@
 // SPDX-License-Identifier: MIT
+
+// Compiled once for every SIMD target: see rows.hpp for what the functions do.
+
+#if defined(MC_GRAPH_ROWS_ARITHMETIC_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef MC_GRAPH_ROWS_ARITHMETIC_INL
+#undef MC_GRAPH_ROWS_ARITHMETIC_INL
+#else
+#define MC_GRAPH_ROWS_ARITHMETIC_INL
+#endif
+
+#include <hwy/highway.h>
+
 #include <cassert>
 #include <cmath>
 
@@ -7,8 +19,9 @@
 
 // The arithmetic nodes, a row at a time: plain loops that the compiler turns into vectors.
 
+HWY_BEFORE_NAMESPACE();
 namespace mc::graph {
-
+namespace HWY_NAMESPACE {
 namespace {
 
 template <class F>
@@ -120,7 +133,7 @@ void two_input_row(const Instruction& instruction, Row a, Row b, std::size_t n,
 }  // namespace
 
 void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
-                    OutRow out) noexcept {
+                    OutRow out) {
   switch (instruction.op) {
     case Op::fill:
       for (std::size_t i = 0; i < n; ++i) {
@@ -136,4 +149,8 @@ void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::si
   }
 }
 
+}  // namespace HWY_NAMESPACE
 }  // namespace mc::graph
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that foreach_target.h flips

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
-#include <array>
+#pragma once
+
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "graph/float_math.hpp"
 #include "graph/hash.hpp"
-#include "graph/rows.hpp"
+#include "graph/permutation.hpp"
 
-// Gradient noises without a permutation table, and Unity's, which has one. Every sample runs the
-// same operations: gradients are chosen by selects, so that rows can be vectors.
+// The noises of src/graph, a sample at a time in plain C++: what their kernels are compared with.
 
-namespace mc::graph {
+namespace mc::tests::twin {
 
-namespace {
+using namespace mc::graph;  // float_math.hpp and hash.hpp, which both share
 
 // The largest value of the raw noise, over all positions and gradients, scales to 1.
-constexpr float kPerlin2Scale = 1.5132795F;
-constexpr float kPerlin3Scale = 0.96492142F;
-constexpr float kSimplex2Scale = 100.0401F;
-constexpr float kSimplex3Scale = 76.88075F;
+inline constexpr float kPerlin2Scale = 1.5132795F;
+inline constexpr float kPerlin3Scale = 0.96492142F;
+inline constexpr float kSimplex2Scale = 100.0401F;
+inline constexpr float kSimplex3Scale = 76.88075F;
 
 /// A coordinate split into its cell and the rest. Beyond 2^30 cells it is held there; for NaN the
 /// cell is the lowest and the rest NaN.
@@ -28,30 +29,30 @@ struct Split {
 };
 
 /// Floor of |v| <= 2^30, in 32-bit integers.
-std::int32_t cell_of(float v) noexcept {
+inline std::int32_t cell_of(float v) noexcept {
   const float safe = v >= -0x1p30F ? v : -0x1p30F;  // NaN too
   const auto cut = static_cast<std::int32_t>(safe);
   return static_cast<float>(cut) > safe ? cut - 1 : cut;
 }
 
-Split split(float v) noexcept {
+inline Split split(float v) noexcept {
   const float held = clamped(v, -0x1p30F, 0x1p30F);
   const std::int32_t cell = cell_of(held);
   return {static_cast<std::uint32_t>(cell), held - static_cast<float>(cell)};
 }
 
-float fade(float t) noexcept { return (((6.0F * t - 15.0F) * t) + 10.0F) * ((t * t) * t); }
+inline float fade(float t) noexcept { return (((6.0F * t - 15.0F) * t) + 10.0F) * ((t * t) * t); }
 
-float lerp(float t, float a, float b) noexcept { return a + t * (b - a); }
+inline float lerp(float t, float a, float b) noexcept { return a + t * (b - a); }
 
 /// v, or -v where the bit (its number) of h is set.
-float flipped(float v, std::uint32_t h, unsigned bit) noexcept {
+inline float flipped(float v, std::uint32_t h, unsigned bit) noexcept {
   const std::uint32_t sign = (h << (31U - bit)) & 0x80000000U;
   return std::bit_cast<float>(std::bit_cast<std::uint32_t>(v) ^ sign);
 }
 
 /// Eight unit gradients at odd multiples of 22.5 degrees, none along an axis.
-float gradient2(std::uint32_t hash, float x, float y) noexcept {
+inline float gradient2(std::uint32_t hash, float x, float y) noexcept {
   const std::uint32_t h = hash >> 29;
   const float u = (h & 4U) != 0 ? y : x;
   const float v = (h & 4U) != 0 ? x : y;
@@ -59,7 +60,7 @@ float gradient2(std::uint32_t hash, float x, float y) noexcept {
 }
 
 /// The twelve edge directions of a cube, four of them twice.
-float gradient3(std::uint32_t hash, float x, float y, float z) noexcept {
+inline float gradient3(std::uint32_t hash, float x, float y, float z) noexcept {
   const std::uint32_t h = hash >> 28;
   const float u = h < 8 ? x : y;
   const float x_or_z = (h & 13U) == 12U ? x : z;  // 12 and 14
@@ -67,7 +68,7 @@ float gradient3(std::uint32_t hash, float x, float y, float z) noexcept {
   return flipped(u, h, 0) + flipped(v, h, 1);
 }
 
-float perlin2(float px, float py, std::uint32_t seed) noexcept {
+inline float perlin2(float px, float py, std::uint32_t seed) noexcept {
   const Split x = split(px);
   const Split y = split(py);
   const std::uint32_t x0 = x.cell * kPrimeX;
@@ -83,7 +84,7 @@ float perlin2(float px, float py, std::uint32_t seed) noexcept {
   return lerp(v, lerp(u, n00, n10), lerp(u, n01, n11)) * kPerlin2Scale;
 }
 
-float perlin3(float px, float py, float pz, std::uint32_t seed) noexcept {
+inline float perlin3(float px, float py, float pz, std::uint32_t seed) noexcept {
   const Split x = split(px);
   const Split y = split(py);
   const Split z = split(pz);
@@ -116,21 +117,21 @@ float perlin3(float px, float py, float pz, std::uint32_t seed) noexcept {
 }
 
 /// (1/2 - r^2)^4, 0 outside.
-float kernel(float r2) noexcept {
+inline float kernel(float r2) noexcept {
   const float t = greatest(0.5F - r2, 0.0F);
   return (t * t) * (t * t);
 }
 
 /// Distances that are not numbers give NaN, also where the kernel would be 0.
-float corner2(std::uint32_t hash, float x, float y) noexcept {
+inline float corner2(std::uint32_t hash, float x, float y) noexcept {
   return kernel(x * x + y * y) * gradient2(hash, x, y);
 }
 
-float corner3(std::uint32_t hash, float x, float y, float z) noexcept {
+inline float corner3(std::uint32_t hash, float x, float y, float z) noexcept {
   return kernel((x * x + y * y) + z * z) * gradient3(hash, x, y, z);
 }
 
-float simplex2(float px, float py, std::uint32_t seed) noexcept {
+inline float simplex2(float px, float py, std::uint32_t seed) noexcept {
   constexpr float kSkew = 0.366025404F;    // (sqrt(3) - 1) / 2
   constexpr float kUnskew = 0.211324865F;  // (3 - sqrt(3)) / 6
   const float x = clamped(px, -0x1p28F, 0x1p28F);
@@ -157,7 +158,7 @@ float simplex2(float px, float py, std::uint32_t seed) noexcept {
   return ((n0 + n1) + n2) * kSimplex2Scale;
 }
 
-float simplex3(float px, float py, float pz, std::uint32_t seed) noexcept {
+inline float simplex3(float px, float py, float pz, std::uint32_t seed) noexcept {
   constexpr float kSkew = 0.333333333F;
   constexpr float kUnskew = 0.166666667F;
   const float x = clamped(px, -0x1p28F, 0x1p28F);
@@ -202,41 +203,12 @@ float simplex3(float px, float py, float pz, std::uint32_t seed) noexcept {
   return (((n0 + n1) + n2) + n3) * kSimplex3Scale;
 }
 
-// Perlin's permutation of 2002.
-constexpr std::array<std::uint8_t, 256> kPermutation{
-    151, 160, 137, 91,  90,  15,  131, 13,  201, 95,  96,  53,  194, 233, 7,   225, 140, 36,  103,
-    30,  69,  142, 8,   99,  37,  240, 21,  10,  23,  190, 6,   148, 247, 120, 234, 75,  0,   26,
-    197, 62,  94,  252, 219, 203, 117, 35,  11,  32,  57,  177, 33,  88,  237, 149, 56,  87,  174,
-    20,  125, 136, 171, 168, 68,  175, 74,  165, 71,  134, 139, 48,  27,  166, 77,  146, 158, 231,
-    83,  111, 229, 122, 60,  211, 133, 230, 220, 105, 92,  41,  55,  46,  245, 40,  244, 102, 143,
-    54,  65,  25,  63,  161, 1,   216, 80,  73,  209, 76,  132, 187, 208, 89,  18,  169, 200, 196,
-    135, 130, 116, 188, 159, 86,  164, 100, 109, 198, 173, 186, 3,   64,  52,  217, 226, 250, 124,
-    123, 5,   202, 38,  147, 118, 126, 255, 82,  85,  212, 207, 206, 59,  227, 47,  16,  58,  17,
-    182, 189, 28,  42,  223, 183, 170, 213, 119, 248, 152, 2,   44,  154, 163, 70,  221, 153, 101,
-    155, 167, 43,  172, 9,   129, 22,  39,  253, 19,  98,  108, 110, 79,  113, 224, 232, 178, 185,
-    112, 104, 218, 246, 97,  228, 251, 34,  242, 193, 238, 210, 144, 12,  191, 179, 162, 241, 81,
-    51,  145, 235, 249, 14,  239, 107, 49,  192, 214, 31,  181, 199, 106, 157, 184, 84,  204, 176,
-    115, 121, 50,  45,  127, 4,   150, 254, 138, 236, 205, 93,  222, 114, 67,  29,  24,  72,  243,
-    141, 128, 195, 78,  66,  215, 61,  156, 180};
-
-constexpr bool is_permutation() {
-  std::array<bool, 256> seen{};
-  for (const std::uint8_t v : kPermutation) {
-    seen[v] = true;
-  }
-  for (const bool s : seen) {
-    if (!s) {
-      return false;
-    }
-  }
-  return true;
+inline std::uint32_t permuted(std::uint32_t v) noexcept {
+  return static_cast<std::uint32_t>(kPermuted[v & 255U]);
 }
-static_assert(is_permutation());
-
-std::uint32_t permuted(std::uint32_t v) noexcept { return kPermutation[v & 255U]; }
 
 /// The z = 0 slice of the three-dimensional gradients.
-float unity_gradient(std::uint32_t hash, float x, float y) noexcept {
+inline float unity_gradient(std::uint32_t hash, float x, float y) noexcept {
   const std::uint32_t h = hash & 15U;
   const float u = h < 8 ? x : y;
   const float x_or_zero = (h & 13U) == 12U ? x : 0.0F;
@@ -244,7 +216,7 @@ float unity_gradient(std::uint32_t hash, float x, float y) noexcept {
   return flipped(u, h, 0) + flipped(v, h, 1);
 }
 
-float unity2(float px, float py) noexcept {
+inline float unity2(float px, float py) noexcept {
   const Split x = split(std::abs(px));
   const Split y = split(std::abs(py));
   const float u = fade(clamped(x.rest, 0.0F, 1.0F));
@@ -259,40 +231,4 @@ float unity2(float px, float py) noexcept {
   return (n + 0.69F) / 1.483F;
 }
 
-}  // namespace
-
-void perlin2_row(Row x, Row y, float frequency, std::uint32_t seed, std::size_t n,
-                 OutRow out) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = perlin2(x[i] * frequency, y[i] * frequency, seed);
-  }
-}
-
-void perlin3_row(Row x, Row y, Row z, float frequency, std::uint32_t seed, std::size_t n,
-                 OutRow out) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = perlin3(x[i] * frequency, y[i] * frequency, z[i] * frequency, seed);
-  }
-}
-
-void simplex2_row(Row x, Row y, float frequency, std::uint32_t seed, std::size_t n,
-                  OutRow out) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = simplex2(x[i] * frequency, y[i] * frequency, seed);
-  }
-}
-
-void simplex3_row(Row x, Row y, Row z, float frequency, std::uint32_t seed, std::size_t n,
-                  OutRow out) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = simplex3(x[i] * frequency, y[i] * frequency, z[i] * frequency, seed);
-  }
-}
-
-void unity2_row(Row x, Row y, float frequency, std::size_t n, OutRow out) noexcept {
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = unity2(x[i] * frequency, y[i] * frequency);
-  }
-}
-
-}  // namespace mc::graph
+}  // namespace mc::tests::twin

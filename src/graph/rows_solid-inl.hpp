@@ -1,4 +1,16 @@
 // SPDX-License-Identifier: MIT
+
+// Compiled once for every SIMD target: see rows.hpp for what the functions do.
+
+#if defined(MC_GRAPH_ROWS_SOLID_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef MC_GRAPH_ROWS_SOLID_INL
+#undef MC_GRAPH_ROWS_SOLID_INL
+#else
+#define MC_GRAPH_ROWS_SOLID_INL
+#endif
+
+#include <hwy/highway.h>
+
 #include <cassert>
 #include <cmath>
 
@@ -8,8 +20,9 @@
 // The solids: exact signed distances, positive inside.
 // Source   the usual closed forms (Hart, "Sphere tracing", 1996, appendix A).
 
+HWY_BEFORE_NAMESPACE();
 namespace mc::graph {
-
+namespace HWY_NAMESPACE {
 namespace {
 
 float box_distance(float x, float y, float z, const Instruction& instruction) noexcept {
@@ -27,8 +40,7 @@ float box_distance(float x, float y, float z, const Instruction& instruction) no
 
 }  // namespace
 
-void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
-               OutRow out) noexcept {
+void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n, OutRow out) {
   const auto& p = instruction.p;
   switch (instruction.op) {
     case Op::sphere:
@@ -63,4 +75,8 @@ void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t 
   }
 }
 
+}  // namespace HWY_NAMESPACE
 }  // namespace mc::graph
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard that foreach_target.h flips
