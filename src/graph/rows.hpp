@@ -15,6 +15,10 @@ namespace mc::graph {
 using Row = const float* __restrict;
 using OutRow = float* __restrict;
 
+/// Any instruction but the coordinates, which are not made from rows.
+void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+             OutRow out) noexcept;
+
 /// Arithmetic, min, max, fractal sums, smooth combinations.
 void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
                     OutRow out) noexcept;
