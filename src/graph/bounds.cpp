@@ -352,6 +352,8 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return plane(in, instruction);
     case Op::torus:
       return torus(in, instruction);
+    case Op::copy:
+      return a;
   }
   return kUnknown;
 }

@@ -32,6 +32,9 @@ void Machine::run(const Instruction& instruction, std::size_t n, float* out) con
     case Op::z:
       std::copy_n(z_.begin(), n, out);
       return;
+    case Op::copy:
+      std::copy_n(row(instruction.in[0]), n, out);
+      return;
     default:
       return any_row(instruction, row(instruction.in[0]), row(instruction.in[1]),
                      row(instruction.in[2]), n, out);

@@ -53,6 +53,7 @@ enum class Op : std::uint8_t {
   box,
   plane,
   torus,  // coordinates permuted so that b runs along the axis
+  copy,   // a; of pruned programs only
 };
 
 /// A value is named by its place in Program::code.

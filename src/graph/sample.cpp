@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "graph/machine.hpp"
+#include "graph/surface_sampler.hpp"
 #include "mc/graph.hpp"
 
 // Runs a program over a lattice: plane by plane, each in columns of kPiece samples, so that all
@@ -38,6 +40,17 @@ void GraphField::sample(const Vec3& origin, const Vec3& spacing, const Index3& f
       }
     }
   }
+}
+
+void GraphField::sample_surface(const Vec3& origin, const Vec3& spacing, const Index3& first,
+                                const SurfaceQuery& query, View3<float> out, SideMap& sides) const {
+  IndexBox box = query.region;
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.lo[a] = std::max(box.lo[a], first[a]);
+    box.hi[a] = std::min(box.hi[a], first[a] + (out.dims[a] - 1));
+    assert(box.lo[a] <= box.hi[a]);
+  }
+  graph::SurfaceSampler(*program_, {origin, spacing}, query, box, first, out, sides).run();
 }
 
 }  // namespace mc
