@@ -121,14 +121,57 @@ struct Volume {
   std::optional<std::uint64_t> n_active;  ///< sparse: active samples
 };
 
+/// Where a run looks at a dense volume: at the surface, and a step of the lattice around it.
+struct SurfaceQuery {
+  double iso = 0;       ///< as samples are compared with it
+  IndexBox region;      ///< nothing outside it is looked at
+  bool capped = false;  ///< a constant layer surrounds the region: its faces' sides count too
+};
+
+/// The samples that a reader left out because the surface is not near them, and on which side of it
+/// they lie: one bit a sample along i, one row of bits for blocks of rows and planes.
+class SideMap {
+ public:
+  /// Nothing is left out, and nothing is known.
+  void clear() { n_left_out_ = 0, known_.clear(), above_.clear(); }
+  /// Nothing is left out of `box` yet. A block has so many rows and planes, counted from box.lo.
+  void reset(const IndexBox& box, std::int32_t rows, std::int32_t planes);
+  /// Leaves out the samples of a box of whole blocks along j (or up to the end), within one block
+  /// along k.
+  void leave_out(const IndexBox& part, bool above);
+
+  [[nodiscard]] bool empty() const { return known_.empty(); }
+  [[nodiscard]] const IndexBox& box() const { return box_; }
+  [[nodiscard]] std::int32_t rows() const { return rows_; }
+  [[nodiscard]] std::uint64_t n_left_out() const { return n_left_out_; }
+  /// The bits of a row: bit n is sample box.lo[0] + n. Bits past the end are known, and not above.
+  [[nodiscard]] std::span<const std::uint64_t> known(std::int32_t j, std::int32_t k) const {
+    return std::span(known_).subspan(row(j, k), n_words_);
+  }
+  [[nodiscard]] std::span<const std::uint64_t> above(std::int32_t j, std::int32_t k) const {
+    return std::span(above_).subspan(row(j, k), n_words_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t row(std::int32_t j, std::int32_t k) const;
+
+  IndexBox box_;
+  std::int32_t rows_ = 1, planes_ = 1;
+  std::size_t n_row_blocks_ = 0, n_words_ = 0;
+  std::vector<std::uint64_t> known_, above_;
+  std::uint64_t n_left_out_ = 0;
+};
+
 /// Consecutive planes of samples: planes[n] is plane k0 + n, rows lie row_stride_bytes apart, the
 /// samples of a row are adjacent, nothing is aligned. Mapped sources point into the mapping, others
-/// into `storage`, which a reused Slab keeps from read to read.
+/// into `storage`, which a reused Slab keeps from read to read. Samples that `sides` leaves out are
+/// not there: their memory holds anything.
 struct Slab {
   std::int32_t k0 = 0;
   std::vector<const std::byte*> planes;
   std::size_t row_stride_bytes = 0;
   Buffer<std::byte> storage;
+  SideMap sides;
 };
 
 /// The port of dense volumes.
@@ -140,6 +183,13 @@ class SlabReader {
   /// Threads: may be called from several threads at once, in any order, each with its own Slab.
   /// Errors: input, when the planes cannot be read.
   virtual void read(std::int32_t k0, std::int32_t k1, Slab& out) const = 0;
+  /// read(), for who looks only where `query` says: may leave out other samples, and tells on which
+  /// side of the surface they lie. What is there has the bits that read() gives it. All is there of
+  /// a sample that lies at most one step, also diagonally, from an end of a crossed lattice edge of
+  /// these planes; where the query is capped, samples on the region's faces that are left out hold
+  /// an infinity of their side.
+  virtual void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                            Slab& out) const;
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
 };

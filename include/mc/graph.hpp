@@ -100,6 +100,18 @@ class GraphField {
   /// Cost     O(samples * nodes); what does not depend on y is computed once a plane.
   void sample(const Vec3& origin, const Vec3& spacing, const Index3& first, View3<float> out) const;
 
+  /// sample(), where `query` looks: fills what SlabReader::read_surface() promises, within the part
+  /// of the query's region (lattice indices) that `out` covers, and notes in `sides` what is left
+  /// out of it.
+  /// Cost     O(columns * nodes that do not depend on y + samples near the surface * nodes that
+  ///          matter there); bounds of the nodes for each of a few thousand samples.
+  /// Source   Snyder, "Interval analysis for computer graphics", SIGGRAPH 1992; Keeter, "Massively
+  ///          parallel rendering of complex closed-form implicit surfaces", SIGGRAPH 2020 (shorter
+  ///          programs for smaller blocks). Differs: nodes that do not depend on y are bounded by
+  ///          their samples, which the column needs anyhow.
+  void sample_surface(const Vec3& origin, const Vec3& spacing, const Index3& first,
+                      const SurfaceQuery& query, View3<float> out, SideMap& sides) const;
+
  private:
   std::unique_ptr<const graph::Program> program_;
 };

@@ -37,6 +37,9 @@ struct MeshTotals {
   Bounds bounds;                 ///< of the vertices as stored
   std::optional<double> area;    ///< only when measured
   std::optional<double> volume;  ///< positive for outward winding; only when measured and closed
+  /// Samples that dense slabs asked for, those between two slabs in both, and how many of them the
+  /// source skipped because the surface was not near. Facts of the run, not of the mesh.
+  std::uint64_t n_asked = 0, n_skipped = 0;
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
   [[nodiscard]] std::int64_t euler() const;

@@ -100,7 +100,9 @@ std::vector<Option> options_of(ExtractArgs& a) {
        {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
        {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
        {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
-       {"--allow-empty", "", "a mesh without triangles is a success", false, &a.allow_empty}});
+       {"--allow-empty", "", "a mesh without triangles is a success", false, &a.allow_empty},
+       {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
+        &a.no_skip}});
   append(all, run_options(a.common, a.memory));
   append(all, talk_options(a.common));
   return all;

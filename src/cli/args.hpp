@@ -40,7 +40,7 @@ struct ExtractArgs {
   bool ascii = false;
   Text precision;
   Text memory, report;
-  bool dry_run = false, force = false, allow_empty = false;
+  bool dry_run = false, force = false, allow_empty = false, no_skip = false;
 };
 
 struct SampleArgs {

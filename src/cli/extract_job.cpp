@@ -195,6 +195,7 @@ RunOptions Extraction::run_options(const Iso& iso) const {
   options.object.origin = options.extract.origin;
   options.memory_bytes = plan_.memory_bytes;
   options.count_first = counting_of(reader());
+  options.skip = plan_.skip;
   options.formatted = needs_.formatted;
   options.to_world = placement_.to_world;
   return options;
@@ -260,6 +261,12 @@ void Extraction::write() {
     note_border(totals);
     invocation_.console.detail(fmt::format("{}: {} vertices, {} triangles", job_.output,
                                            totals.n_vertices, totals.n_triangles));
+    if (totals.n_skipped != 0) {
+      invocation_.console.detail(fmt::format(
+          "skipped {} of {} samples, far from the surface ({:.1f} %)", totals.n_skipped,
+          totals.n_asked,
+          100 * static_cast<double>(totals.n_skipped) / static_cast<double>(totals.n_asked)));
+    }
   }
 }
 

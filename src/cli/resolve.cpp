@@ -257,6 +257,7 @@ ExtractPlan resolve(const ExtractArgs& args) {
   plan.report = args.report;
   plan.dry_run = args.dry_run;
   plan.allow_empty = args.allow_empty;
+  plan.skip = !args.no_skip;
   plan.extract.measure = args.report.has_value();
   return plan;
 }

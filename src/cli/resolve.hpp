@@ -64,6 +64,7 @@ struct ExtractPlan {
   std::optional<std::string> report;
   bool dry_run = false;
   bool allow_empty = false;
+  bool skip = true;
   CommonOptions common;
 };
 

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "extract/classify.hpp"
-
 namespace mc::extraction {
 
 namespace {
@@ -63,6 +61,55 @@ void PlaneClassifier::pad_row(std::uint64_t* row) const {
   }
 }
 
+SampleRows PlaneClassifier::rows_of(const Slab& slab, std::int32_t j, std::int32_t k,
+                                    std::size_t n_rows) const {
+  const std::byte* first = slab.planes[static_cast<std::size_t>(k - slab.k0)] +
+                           static_cast<std::size_t>(j) * slab.row_stride_bytes +
+                           static_cast<std::size_t>(box_.lo[0]) * sample_size(threshold_.type);
+  return {first, slab.row_stride_bytes, static_cast<std::size_t>(box_.extent(0)), n_rows};
+}
+
+/// Classifies rows from j on, all in one block of the slab's map: words of which it does not know
+/// all samples, then puts in what it knows.
+void PlaneClassifier::classify_block(const Slab& slab, std::int32_t j, std::int32_t k,
+                                     std::size_t n_rows, std::uint64_t* words) const {
+  const auto known = slab.sides.known(j, k);
+  const auto above = slab.sides.above(j, k);
+  const SampleRows rows = rows_of(slab, j, k, n_rows);
+  const auto has_samples = [](std::uint64_t word) { return word != ~std::uint64_t{0}; };
+  auto end = known.begin();
+  for (;;) {
+    const auto begin = std::find_if(end, known.end(), has_samples);
+    if (begin == known.end()) break;
+    end = std::find_if_not(begin, known.end(), has_samples);
+    const auto w = static_cast<std::size_t>(begin - known.begin());
+    const auto w_end = static_cast<std::size_t>(end - known.begin());
+    SampleRows part = rows;
+    part.first += 64 * w * sample_size(threshold_.type);
+    part.n_samples = std::min(64 * w_end, rows.n_samples) - 64 * w;
+    classify_rows(threshold_, part, words + w, n_words_);
+  }
+  for (std::size_t r = 0; r < n_rows; ++r) {
+    std::uint64_t* row = words + r * n_words_;
+    for (std::size_t w = 0; w < known.size(); ++w) row[w] = (row[w] & ~known[w]) | above[w];
+  }
+}
+
+/// Classifies rows of samples from j on.
+void PlaneClassifier::classify_samples(const Slab& slab, std::int32_t j, std::int32_t k,
+                                       std::size_t n_rows, std::uint64_t* words) const {
+  if (slab.sides.empty()) {
+    return classify_rows(threshold_, rows_of(slab, j, k, n_rows), words, n_words_);
+  }
+  const std::int32_t block = slab.sides.rows();
+  for (const std::int32_t end = j + static_cast<std::int32_t>(n_rows); j < end;) {
+    const std::int32_t n = std::min(end - j, block - (j - slab.sides.box().lo[1]) % block);
+    classify_block(slab, j, k, static_cast<std::size_t>(n), words);
+    words += static_cast<std::size_t>(n) * n_words_;
+    j += n;
+  }
+}
+
 void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t j0, std::size_t j1,
                                PlaneBits& out) const {
   const auto row = [&](std::size_t j) { return out.words.data() + j * n_words_; };
@@ -77,11 +124,7 @@ void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t
   if (first < last) {
     const auto n_samples = static_cast<std::size_t>(box_.extent(0));
     const std::size_t j = static_cast<std::size_t>(box_.lo[1]) + first - pad;
-    const std::byte* samples = slab.planes[static_cast<std::size_t>(k - slab.k0)] +
-                               j * slab.row_stride_bytes +
-                               static_cast<std::size_t>(box_.lo[0]) * sample_size(threshold_.type);
-    classify_rows(threshold_, {samples, slab.row_stride_bytes, n_samples, last - first}, row(first),
-                  n_words_);
+    classify_samples(slab, static_cast<std::int32_t>(j), k, last - first, row(first));
     for (std::size_t r = first; r < last && capped(); ++r) {
       std::fill(row(r) + (n_samples + 63) / 64, row(r) + n_words_, 0);
       pad_row(row(r));

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "extract/classify.hpp"
 #include "extract/row_kernels.hpp"
 #include "extract/threshold.hpp"
 #include "mc/extract.hpp"
@@ -63,6 +64,12 @@ class PlaneClassifier {
 
  private:
   void fill_row(std::uint64_t* row) const;
+  [[nodiscard]] SampleRows rows_of(const Slab& slab, std::int32_t j, std::int32_t k,
+                                   std::size_t n_rows) const;
+  void classify_block(const Slab& slab, std::int32_t j, std::int32_t k, std::size_t n_rows,
+                      std::uint64_t* words) const;
+  void classify_samples(const Slab& slab, std::int32_t j, std::int32_t k, std::size_t n_rows,
+                        std::uint64_t* words) const;
   void pad_row(std::uint64_t* row) const;
   [[nodiscard]] std::uint64_t plane_sides(const PlaneBits& plane) const;
 

@@ -25,6 +25,7 @@ struct TaskTotals {
   std::uint64_t n_boundary_edges = 0;
   Bounds bounds;
   std::vector<LayerSum> layers;  ///< only when measured
+  std::uint64_t n_asked = 0, n_skipped = 0;
 
   void clear() {
     layers.clear();

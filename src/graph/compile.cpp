@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -11,18 +10,15 @@
 #include <vector>
 
 #include "graph/hash.hpp"
+#include "graph/schedule.hpp"
 
 // From a graph to straight-line code. A node is emitted once for each domain (coordinates, seed
 // salt, dims) it is asked for in: fbm and warp ask for their source in domains of their own, all
-// other nodes pass theirs on. Then dead instructions go, those that do not depend on y move to the
-// front (the engine runs them once a plane), and values are given registers, reused after the last
-// use.
+// other nodes pass theirs on.
 
 namespace mc::graph {
 
 namespace {
-
-using Value = std::uint32_t;  // the instruction that makes it
 
 /// Where a node is evaluated.
 struct Domain {
@@ -324,121 +320,12 @@ Value Emitter::emit_combination(const Node& node, const Domain& domain) {
   return push(op, {a, outside_b}, node.numbers);
 }
 
-/// Which values the result needs.
-std::vector<bool> needed(const std::vector<Instruction>& code, Value result) {
-  std::vector<bool> live(code.size(), false);
-  live[result] = true;
-  for (std::size_t n = code.size(); n-- > 0;) {
-    for (std::size_t i = 0; live[n] && i < code[n].n_in; ++i) {
-      live[code[n].in[i]] = true;
-    }
-  }
-  return live;
-}
-
-/// Which values change along y.
-std::vector<bool> varies_with_y(const std::vector<Instruction>& code) {
-  std::vector<bool> varies(code.size(), false);
-  for (std::size_t n = 0; n < code.size(); ++n) {
-    varies[n] = code[n].op == Op::y;
-    for (std::size_t i = 0; i < code[n].n_in; ++i) {
-      varies[n] = varies[n] || varies[code[n].in[i]];
-    }
-  }
-  return varies;
-}
-
-/// Gives values registers in the order of execution. A register is free again after its value's
-/// last use, but never within that instruction: rows of one instruction do not overlap.
-class RegisterFile {
- public:
-  RegisterFile(const Program& program, Value result, std::size_t n_values)
-      : last_use_(n_values, 0), at_(n_values, 0) {
-    std::size_t time = 0;
-    for (const Instruction& instruction : program.once_a_plane) {
-      note_uses(instruction, ++time);
-    }
-    std::vector<bool> of_plane(n_values, false);
-    for (const Instruction& instruction : program.once_a_plane) {
-      of_plane[instruction.out] = true;
-    }
-    for (const Instruction& instruction : program.once_a_row) {
-      note_uses(instruction, ++time);
-      for (std::size_t i = 0; i < instruction.n_in; ++i) {
-        if (of_plane[instruction.in[i]]) {
-          last_use_[instruction.in[i]] = kForever;  // the next row wants it again
-        }
-      }
-    }
-    last_use_[result] = kForever;
-  }
-
-  void assign(std::vector<Instruction>& code) {
-    for (Instruction& instruction : code) {
-      ++time_;
-      const Value value = instruction.out;
-      at_[value] = take();
-      std::array<Value, 3> inputs = instruction.in;
-      for (std::size_t i = 0; i < instruction.n_in; ++i) {
-        instruction.in[i] = at_[inputs[i]];
-        const bool repeated =
-            std::find(inputs.begin(), inputs.begin() + i, inputs[i]) != inputs.begin() + i;
-        if (last_use_[inputs[i]] == time_ && !repeated) {
-          free_.push_back(at_[inputs[i]]);
-        }
-      }
-      instruction.out = at_[value];
-    }
-  }
-
-  [[nodiscard]] std::uint32_t count() const { return n_registers_; }
-  [[nodiscard]] std::uint32_t at(Value value) const { return at_[value]; }
-
- private:
-  static constexpr std::size_t kForever = std::numeric_limits<std::size_t>::max();
-
-  void note_uses(const Instruction& instruction, std::size_t time) {
-    for (std::size_t i = 0; i < instruction.n_in; ++i) {
-      last_use_[instruction.in[i]] = time;
-    }
-  }
-  std::uint32_t take() {
-    if (free_.empty()) {
-      return n_registers_++;
-    }
-    const std::uint32_t reused = free_.back();
-    free_.pop_back();
-    return reused;
-  }
-
-  std::vector<std::size_t> last_use_;
-  std::vector<std::uint32_t> at_;
-  std::vector<std::uint32_t> free_;
-  std::uint32_t n_registers_ = 0;
-  std::size_t time_ = 0;
-};
-
 }  // namespace
 
 Program compile(const Graph& graph, NodeId root) {
   Emitter emitter(graph);
   const Value result = emitter.emit_root(root);
-  const std::vector<Instruction> code = emitter.take();
-  const std::vector<bool> live = needed(code, result);
-  const std::vector<bool> varies = varies_with_y(code);
-
-  Program program;
-  for (std::size_t n = 0; n < code.size(); ++n) {
-    if (live[n]) {
-      (varies[n] ? program.once_a_row : program.once_a_plane).push_back(code[n]);
-    }
-  }
-  RegisterFile registers(program, result, code.size());
-  registers.assign(program.once_a_plane);
-  registers.assign(program.once_a_row);
-  program.n_registers = registers.count();
-  program.result = registers.at(result);
-  return program;
+  return schedule(emitter.take(), result);
 }
 
 }  // namespace mc::graph

@@ -16,9 +16,9 @@ struct NoiseRange {
 };
 
 /// Bounds of a noise over all coordinates that are numbers; a coordinate that is NaN gives NaN.
-/// They hold for the rounded values: formulas whose exact range is [-1, 1] may pass it by rounding.
+/// They hold for the rounded values: formulas whose exact range is [-1, 1] to 1e-5 may pass it.
 [[nodiscard]] inline NoiseRange noise_range(const Instruction& instruction) noexcept {
-  constexpr float kOne = 1.0F + 0x1p-18F;
+  constexpr float kOne = 1.0F + 0x1p-10F;
   switch (instruction.op) {
     case Op::perlin2:
     case Op::perlin3:

@@ -4,11 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-// A compiled graph: straight-line instructions over rows of floats ("registers"). Coordinates are
-// registers too, so fractals and warps need nothing special here: the compiler emits their sources
-// again over other coordinates.
+// A compiled graph: straight-line instructions, each of which makes one value from values before
+// it, over rows of floats. Coordinates are values too, so fractals and warps need nothing special
+// here: the compiler emits their sources again over other coordinates.
 
 namespace mc::graph {
 
@@ -52,25 +53,37 @@ enum class Op : std::uint8_t {
   box,
   plane,
   torus,  // coordinates permuted so that b runs along the axis
+  copy,   // a; of pruned programs only
 };
+
+/// A value is named by its place in Program::code.
+using Value = std::uint32_t;
 
 struct Instruction {
   Op op = Op::fill;
-  std::uint32_t out = 0;
-  std::array<std::uint32_t, 3> in{};
+  Value out = 0;
+  std::array<Value, 3> in{};
   std::uint8_t n_in = 0;
   std::uint32_t seed = 0;
   std::array<float, 6> p{};
 };
 
-/// Samples are computed in pieces of rows of this many, so that registers stay in the cache.
+/// Samples are computed in pieces of this many, so that registers stay in the cache.
 inline constexpr std::size_t kPiece = 256;
 
 struct Program {
-  std::vector<Instruction> once_a_plane;  // do not depend on y
-  std::vector<Instruction> once_a_row;
+  std::vector<Instruction> code;     ///< value n is made by code[n]
+  std::size_t n_flat = 0;            ///< the first so many do not change along y
+  std::vector<bool> uniform;         ///< of each value: whether it changes along y only
+  std::vector<std::uint32_t> homes;  ///< of each value: the register that holds it
   std::uint32_t n_registers = 0;
-  std::uint32_t result = 0;
+  Value result = 0;
+
+  /// What is run once a column of samples, and what for each of them.
+  [[nodiscard]] std::span<const Instruction> flat() const { return std::span(code).first(n_flat); }
+  [[nodiscard]] std::span<const Instruction> deep() const {
+    return std::span(code).subspan(n_flat);
+  }
 };
 
 }  // namespace mc::graph

@@ -20,6 +20,10 @@ using OutRow = float* __restrict;
 inline constexpr std::size_t kRowStep = 16;
 static_assert(kPiece % kRowStep == 0);
 
+/// Any instruction but the coordinates, which are not made from rows.
+void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+             OutRow out) noexcept;
+
 /// Arithmetic, min, max, fractal sums, smooth combinations.
 void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
                     OutRow out) noexcept;

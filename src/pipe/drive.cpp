@@ -27,6 +27,8 @@ class Sum {
     totals_.n_triangles += task.n_triangles;
     totals_.n_boundary_edges += task.n_boundary_edges;
     totals_.bounds.include(task.bounds);
+    totals_.n_asked += task.n_asked;
+    totals_.n_skipped += task.n_skipped;
     for (const extraction::LayerSum& layer : task.layers) {
       *totals_.area += layer.area;
       *totals_.volume += layer.volume;

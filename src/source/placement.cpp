@@ -19,6 +19,10 @@ class PlacedReader final : public SlabReader {
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
     reader_->read(k0, k1, out);
   }
+  void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                    Slab& out) const override {
+    reader_->read_surface(k0, k1, query, out);
+  }
   [[nodiscard]] bool rereads_cheaply() const override { return reader_->rereads_cheaply(); }
 
  private:

@@ -58,6 +58,7 @@ struct How {
   int threads = 1;
   std::int32_t slab_layers = 0;
   bool count_first = false;
+  bool skip = true;
 };
 
 inline Collected collect(const VolumeReader& reader, const ExtractOptions& options,
@@ -67,6 +68,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   run_options.extract = options;
   run_options.slab_layers = how.slab_layers;
   run_options.count_first = how.count_first ? CountFirst::yes : CountFirst::no;
+  run_options.skip = how.skip;
   Collected out;
   CollectingSink sink(out);
   run(reader, run_options, true, sink, silent_progress(), {});

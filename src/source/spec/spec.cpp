@@ -24,6 +24,19 @@ class SpecReader final : public SlabReader {
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
+    out.sides.clear();
+    spec_.field.sample(spec_.origin, spec_.spacing, {0, 0, k0}, make_room(k0, k1, out));
+  }
+
+  void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                    Slab& out) const override {
+    spec_.field.sample_surface(spec_.origin, spec_.spacing, {0, 0, k0}, query,
+                               make_room(k0, k1, out), out.sides);
+  }
+
+ private:
+  /// Memory for planes of samples, in a slab.
+  View3<float> make_room(std::int32_t k0, std::int32_t k1, Slab& out) const {
     const Index3 dims = spec_.volume.lattice.dims();
     assert(0 <= k0 && k0 <= k1 && k1 <= dims[2]);
     const auto size = [](std::int32_t v) { return static_cast<std::uint64_t>(v); };
@@ -43,11 +56,9 @@ class SpecReader final : public SlabReader {
     }
     // Storage comes from operator new, which aligns for every scalar type.
     auto* samples = reinterpret_cast<float*>(out.storage.data());
-    spec_.field.sample(spec_.origin, spec_.spacing, {0, 0, k0},
-                       View3<float>(samples, {dims[0], dims[1], k1 - k0}));
+    return {samples, {dims[0], dims[1], k1 - k0}};
   }
 
- private:
   SpecDocument spec_;
 };
 

@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: MIT
+#include "graph/bounds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "graph/float_math.hpp"
+#include "graph/noise_range.hpp"
+#include "graph/rows.hpp"
+
+// One case for each operation. Whoever adds an operation and knows no bounds says kUnknown: it is
+// then sampled everywhere.
+
+namespace mc::graph {
+
+namespace {
+
+constexpr Interval kUnknown{};
+
+/// [lo, hi], but unknown where an end is not finite: infinities would breed NaN further on.
+Interval between(float lo, float hi) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return lo >= -kMost && hi <= kMost && lo <= hi ? Interval{lo, hi} : kUnknown;
+}
+
+/// The hull of two numbers in any order.
+Interval hull(float u, float v) { return v < u ? between(v, u) : between(u, v); }
+
+Interval widened(Interval a, float by) { return between(a.lo - by, a.hi + by); }
+
+/// The largest size of a number in it.
+float size_of(Interval a) { return std::max(std::abs(a.lo), std::abs(a.hi)); }
+
+bool holds_zero(Interval a) { return a.lo <= 0 && a.hi >= 0; }
+
+Interval sum(Interval a, Interval b) { return between(a.lo + b.lo, a.hi + b.hi); }
+Interval difference(Interval a, Interval b) { return between(a.lo - b.hi, a.hi - b.lo); }
+
+template <class F>
+Interval over_corners(Interval a, Interval b, F f) {
+  const float v[4] = {f(a.lo, b.lo), f(a.lo, b.hi), f(a.hi, b.lo), f(a.hi, b.hi)};
+  return between(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
+                 std::max(std::max(v[0], v[1]), std::max(v[2], v[3])));
+}
+
+Interval product(Interval a, Interval b) {
+  return over_corners(a, b, [](float u, float v) { return u * v; });
+}
+
+Interval quotient(Interval a, Interval b) {
+  if (holds_zero(b)) return kUnknown;
+  return over_corners(a, b, [](float u, float v) { return u / v; });
+}
+
+Interval magnitude(Interval a) {
+  if (holds_zero(a)) return between(0, size_of(a));
+  return hull(std::abs(a.lo), std::abs(a.hi));
+}
+
+Interval square(Interval a) {
+  const Interval m = magnitude(a);
+  return between(m.lo * m.lo, m.hi * m.hi);
+}
+
+Interval root(Interval a) {
+  return a.lo >= 0 ? between(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi)) : kUnknown;
+}
+
+/// Of a function that never falls.
+template <class F>
+Interval rising(Interval a, F f) {
+  return between(f(a.lo), f(a.hi));
+}
+
+/// Of a function that rises or falls throughout.
+template <class F>
+Interval monotone(Interval a, F f) {
+  return hull(f(a.lo), f(a.hi));
+}
+
+Interval fraction(Interval a) {
+  const float cell = exact_floor(a.lo);
+  if (cell != exact_floor(a.hi)) return between(0, 1);  // 1 by rounding, just below an integer
+  return between(a.lo - cell, a.hi - cell);
+}
+
+/// exact_sin is within 2e-7 of the sine up to 8192.
+Interval sine(Interval a) {
+  constexpr double kPi = 3.14159265358979323846;
+  constexpr float kError = 1e-6F;
+  if (size_of(a) > 8192 || double{a.hi} - double{a.lo} >= 2 * kPi) return between(-1, 1);
+  const double from = double{a.lo} / kPi - 0.5;  // extremes are at integers
+  const double to = double{a.hi} / kPi - 0.5;
+  Interval out = widened(hull(exact_sin(a.lo), exact_sin(a.hi)), kError);
+  for (double n = std::ceil(from - 1e-6); n <= to + 1e-6; n += 1) {
+    (std::fmod(n, 2) == 0 ? out.hi : out.lo) = std::fmod(n, 2) == 0 ? 1.0F : -1.0F;
+  }
+  return between(std::max(out.lo, -1.0F), std::min(out.hi, 1.0F));
+}
+
+/// exact_pow of a base that is not negative: |b log2 a| is largest at a corner, and so is the
+/// relative error of 2e-7 of each unit of it. Bases below 2^-126 count as zero, and so do results.
+Interval power_of_positive(Interval a, Interval b) {
+  constexpr float kLeast = 0x1p-120F;
+  if (a.lo < kLeast && !(b.lo > 0)) return kUnknown;
+  const auto exponent = [](float u, float v) { return v * exact_log2(greatest(u, kLeast)); };
+  const Interval e = over_corners(a, b, exponent);
+  if (!(e.hi < 120)) return kUnknown;
+  const bool vanishes = a.lo < kLeast || e.lo < -100;
+  const float slack = 1e-6F * (1 + size_of(e));
+  return between(vanishes ? 0 : exact_exp2(e.lo) * (1 - slack),
+                 exact_exp2(std::max(e.hi, -100.0F)) * (1 + slack));
+}
+
+Interval power(Interval a, Interval b) {
+  if (a.lo >= 0) return power_of_positive(a, b);
+  const bool whole = b.single() && exact_floor(b.lo) == b.lo && b.lo > 0;
+  if (!whole) return kUnknown;
+  const Interval size = power_of_positive(magnitude(a), b);
+  if (std::fmod(b.lo, 2.0F) == 0) return size;
+  return a.hi <= 0 ? between(-size.hi, -size.lo) : between(-size.hi, size.hi);
+}
+
+/// a - b floor(a / b), with a divisor of one sign.
+Interval remainder(Interval a, Interval b) {
+  if (holds_zero(b)) return kUnknown;
+  const Interval turns = quotient(a, b);
+  if (!turns.known()) return kUnknown;
+  const float turn = exact_floor(turns.lo);
+  if (b.single() && turn == exact_floor(turns.hi)) {
+    return between(a.lo - b.lo * turn, a.hi - b.lo * turn);
+  }
+  // A quotient rounded to an integer, and what the product and the difference lose.
+  const float slack = (size_of(a) + size_of(b)) * 0x1p-20F;
+  return b.lo > 0 ? between(-slack, b.hi + slack) : between(b.lo - slack, slack);
+}
+
+Interval smooth_step(Interval a, float edge, float width) {
+  const Interval t = monotone(a, [&](float v) { return clamped((v - edge) / width, 0.0F, 1.0F); });
+  const auto s = [](float v) { return (v * v) * (3.0F - 2.0F * v); };
+  if (!t.known() || width == 0) return kUnknown;
+  if (t.single()) return between(s(t.lo), s(t.lo));
+  return between(s(t.lo) * (1 - 0x1p-20F), s(t.hi) * (1 + 0x1p-20F));
+}
+
+/// a + (b - a) c: also between a and b, but for rounding, where c is a fraction.
+Interval mixture(Interval a, Interval b, Interval c) {
+  const Interval plain = sum(a, product(difference(b, a), c));
+  if (!(c.lo >= 0 && c.hi <= 1)) return plain;
+  const float slack = std::max(size_of(a), size_of(b)) * 0x1p-20F;
+  const Interval both = widened({std::min(a.lo, b.lo), std::max(a.hi, b.hi)}, slack);
+  return plain.known() ? between(std::max(plain.lo, both.lo), std::min(plain.hi, both.hi)) : plain;
+}
+
+Interval weight(Interval amplitude, Interval noise, float gain, float weighted) {
+  const Interval factor = monotone(noise, [&](float v) {
+    const float level = clamped((v + 1.0F) * 0.5F, 0.0F, 1.0F);
+    return gain * (1.0F + weighted * (level - 1.0F));
+  });
+  return factor.known() ? product(amplitude, factor) : kUnknown;
+}
+
+float blend(float a, float b, float k) {
+  const float h = greatest(k - std::abs(a - b), 0.0F) / k;
+  return ((h * h) * k) * 0.25F;
+}
+
+/// A smooth minimum never falls when an input rises, but for rounding.
+Interval smooth_least(Interval a, Interval b, float k) {
+  const float slack = (std::max(size_of(a), size_of(b)) + k) * 0x1p-20F;
+  return widened(
+      {least(a.lo, b.lo) - blend(a.lo, b.lo, k), least(a.hi, b.hi) - blend(a.hi, b.hi, k)}, slack);
+}
+
+Interval negative(Interval a) { return {-a.hi, -a.lo}; }
+
+/// Bounds of a noise of two or three coordinates: its range, or closer about the middle of a small
+/// box. `slope` bounds its steepness: the largest sum over the corners of a cell of what each gives
+/// with its worst gradient, in the worst direction, found on a grid of 1/200 (three dimensions:
+/// 1/40) cell and rounded up by two hundredths.
+Interval noise(const Instruction& instruction, const Interval (&at)[3], float slope) {
+  using Places = std::array<float, kRowStep>;  // of which the first counts
+  const NoiseRange range = noise_range(instruction);
+  const float frequency = std::abs(instruction.p[0]);
+  std::array<Places, 3> middle{};
+  float square = 0;
+  float farthest = 0;
+  for (std::size_t axis = 0; axis < instruction.n_in; ++axis) {
+    const float m = 0.5F * at[axis].lo + 0.5F * at[axis].hi;
+    middle[axis].fill(m);
+    const float half = std::max(at[axis].hi - m, m - at[axis].lo) * frequency;
+    square += half * half;
+    farthest = std::max(farthest, size_of(at[axis]) * frequency);
+  }
+  // Coordinates are rounded before and after they are scaled.
+  const float reach = slope * (__builtin_sqrtf(square) + farthest * 0x1p-20F) + 1e-4F;
+  if (!(reach < 0.9F) || farthest > 0x1p20F) return between(range.lo, range.hi);
+  Places value{};
+  gradient_row(instruction, middle[0].data(), middle[1].data(), middle[2].data(), 1, value.data());
+  return between(std::max(range.lo, value[0] - reach), std::min(range.hi, value[0] + reach));
+}
+
+Interval sphere(const Interval (&at)[3], const Instruction& instruction) {
+  const auto& p = instruction.p;
+  Interval squares = square(difference(at[0], {p[0], p[0]}));
+  squares = sum(squares, square(difference(at[1], {p[1], p[1]})));
+  squares = sum(squares, square(difference(at[2], {p[2], p[2]})));
+  return difference({p[3], p[3]}, root(squares));
+}
+
+/// The distance never falls when one from a pair of sides rises.
+Interval box(const Interval (&at)[3], const Instruction& instruction) {
+  const auto& p = instruction.p;
+  Interval q[3];
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Interval from = magnitude(difference(at[n], {p[n], p[n]}));
+    q[n] = difference(from, {p[n + 3] * 0.5F, p[n + 3] * 0.5F});
+  }
+  const auto inside = [](float x, float y, float z) {
+    const float ox = greatest(x, 0.0F);
+    const float oy = greatest(y, 0.0F);
+    const float oz = greatest(z, 0.0F);
+    const float outside = __builtin_sqrtf((ox * ox + oy * oy) + oz * oz);
+    return -(outside + least(greatest(x, greatest(y, z)), 0.0F));
+  };
+  if (!q[0].known() || !q[1].known() || !q[2].known()) return kUnknown;
+  return between(inside(q[0].hi, q[1].hi, q[2].hi), inside(q[0].lo, q[1].lo, q[2].lo));
+}
+
+Interval plane(const Interval (&at)[3], const Instruction& instruction) {
+  const auto& p = instruction.p;
+  const auto along = [&](std::size_t n) { return product(at[n], {p[n], p[n]}); };
+  return difference({p[3], p[3]}, sum(sum(along(0), along(1)), along(2)));
+}
+
+Interval torus(const Interval (&at)[3], const Instruction& instruction) {
+  const auto& p = instruction.p;
+  const auto from = [&](std::size_t n) { return square(difference(at[n], {p[n], p[n]})); };
+  const Interval from_ring = difference(root(sum(from(0), from(2))), {p[3], p[3]});
+  return difference({p[4], p[4]}, root(sum(square(from_ring), from(1))));
+}
+
+}  // namespace
+
+Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interval a, Interval b,
+                   Interval c) noexcept {
+  const Interval in[3] = {a, b, c};
+  for (std::size_t n = 0; n < instruction.n_in; ++n) {
+    if (!in[n].known()) return kUnknown;
+  }
+  const auto& p = instruction.p;
+  const bool same = instruction.in[0] == instruction.in[1];
+  switch (instruction.op) {
+    case Op::fill:
+      return between(p[0], p[0]);
+    case Op::x:
+      return world[0];
+    case Op::y:
+      return world[1];
+    case Op::z:
+      return world[2];
+    case Op::add:
+      return sum(a, b);
+    case Op::sub:
+      return difference(a, b);
+    case Op::mul:
+      return same ? square(a) : product(a, b);
+    case Op::div:
+      return quotient(a, b);
+    case Op::min:
+      return between(std::min(a.lo, b.lo), std::min(a.hi, b.hi));
+    case Op::max:
+      return between(std::max(a.lo, b.lo), std::max(a.hi, b.hi));
+    case Op::pow:
+      return power(a, b);
+    case Op::mod:
+      return remainder(a, b);
+    case Op::abs:
+      return magnitude(a);
+    case Op::neg:
+      return negative(a);
+    case Op::sqrt:
+      return root(a);
+    case Op::floor:
+      return rising(a, exact_floor);
+    case Op::fract:
+      return fraction(a);
+    case Op::sin:
+      return sine(a);
+    case Op::clamp:
+      return rising(a, [&](float v) { return clamped(v, p[0], p[1]); });
+    case Op::remap:
+      return monotone(a, [&](float v) { return (v - p[0]) * p[1] + p[2]; });
+    case Op::smoothstep:
+      return smooth_step(a, p[0], p[1]);
+    case Op::mix:
+      return mixture(a, b, c);
+    case Op::scale:
+      return monotone(a, [&](float v) { return v * p[0]; });
+    case Op::accumulate:
+      return sum(a, monotone(b, [&](float v) { return v * p[0]; }));
+    case Op::multiply_add:
+      return sum(a, product(b, c));
+    case Op::weigh:
+      return weight(a, b, p[0], p[1]);
+    case Op::offset:
+      return rising(a, [&](float v) { return p[0] + v; });
+    case Op::mirror:
+      return between(p[0] - a.hi, p[0] - a.lo);
+    case Op::smooth_min:
+      return smooth_least(a, b, p[0]);
+    case Op::smooth_max:
+      return negative(smooth_least(negative(a), negative(b), p[0]));
+    case Op::perlin2:
+      return noise(instruction, in, 3.2F);
+    case Op::perlin3:
+      return noise(instruction, in, 3.7F);
+    case Op::simplex2:
+      return noise(instruction, in, 7.5F);
+    case Op::simplex3:
+      return noise(instruction, in, 7.1F);
+    case Op::unity2:
+      return noise(instruction, in, 1.9F);
+    case Op::sphere:
+      return sphere(in, instruction);
+    case Op::box:
+      return box(in, instruction);
+    case Op::plane:
+      return plane(in, instruction);
+    case Op::torus:
+      return torus(in, instruction);
+    case Op::copy:
+      return a;
+  }
+  return kUnknown;
+}
+
+}  // namespace mc::graph

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "graph/rows.hpp"
+
+// Which family of rows an instruction belongs to.
+
+namespace mc::graph {
+
+void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+             OutRow out) noexcept {
+  switch (instruction.op) {
+    case Op::perlin2:
+    case Op::perlin3:
+    case Op::simplex2:
+    case Op::simplex3:
+    case Op::unity2:
+      return gradient_row(instruction, a, b, c, n, out);
+    case Op::sphere:
+    case Op::box:
+    case Op::plane:
+    case Op::torus:
+      return solid_row(instruction, a, b, c, n, out);
+    default:
+      return arithmetic_row(instruction, a, b, c, n, out);
+  }
+}
+
+}  // namespace mc::graph

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "graph/bounds.hpp"
+#include "graph/compile.hpp"
+#include "graph/machine.hpp"
+#include "graph/rows.hpp"
+#include "support/random_graphs.hpp"
+
+// Interval bounds hold every sample, of every value that a program makes on its way.
+
+namespace mc::test {
+namespace {
+
+using graph::Interval;
+using graph::WorldBox;
+
+std::vector<Interval> all_bounds(const graph::Program& program, const WorldBox& box) {
+  std::vector<Interval> out;
+  for (const graph::Instruction& i : program.code) {
+    const auto at = [&](std::size_t n) { return n < i.n_in ? out[i.in[n]] : Interval{}; };
+    out.push_back(graph::bounds_of(i, box, at(0), at(1), at(2)));
+  }
+  return out;
+}
+
+/// A block somewhere, mostly small against the features of the graph.
+struct Block {
+  Vec3 lo;
+  Vec3 size;
+
+  explicit Block(std::mt19937& random) {
+    std::uniform_real_distribution<double> at(-6, 6), exponent(-7, 2);
+    lo = {at(random), at(random), at(random)};
+    size = {std::exp2(exponent(random)), std::exp2(exponent(random)), std::exp2(exponent(random))};
+  }
+  [[nodiscard]] WorldBox box() const {
+    WorldBox out;
+    for (std::size_t a = 0; a < 3; ++a) {
+      out[a] = {static_cast<float>(lo[a]), static_cast<float>(lo[a] + size[a])};
+    }
+    return out;
+  }
+};
+
+/// Places at the corners of the block and anywhere in it; one y for all.
+void place(graph::Machine& machine, const WorldBox& box, std::mt19937& random) {
+  std::uniform_real_distribution<float> part(0, 1);
+  const auto inside = [&](const Interval& range) {
+    return std::clamp(range.lo + part(random) * (range.hi - range.lo), range.lo, range.hi);
+  };
+  for (std::size_t n = 0; n < graph::kPiece; ++n) {
+    machine.x()[n] = n < 4 ? (n % 2 == 0 ? box[0].lo : box[0].hi) : inside(box[0]);
+    machine.z()[n] = n < 4 ? (n / 2 == 0 ? box[2].lo : box[2].hi) : inside(box[2]);
+  }
+  machine.set_count(graph::kPiece);
+}
+
+/// Values are kept apart, so that all of them can be looked at after a run.
+void keep_all(graph::Program& program) {
+  program.n_registers = static_cast<std::uint32_t>(program.code.size());
+  for (std::uint32_t n = 0; n < program.n_registers; ++n) program.homes[n] = n;
+}
+
+struct Tally {
+  std::size_t n_known = 0, n_unknown = 0;
+};
+
+void expect_inside(const graph::Program& program, const Block& block, std::mt19937& random,
+                   Tally& tally) {
+  const WorldBox box = block.box();
+  const std::vector<Interval> bounds = all_bounds(program, box);
+  graph::Machine machine(program);
+  place(machine, box, random);
+  machine.run(program.flat());
+  for (const float y : {box[1].lo, 0.3F * box[1].lo + 0.7F * box[1].hi, box[1].hi}) {
+    machine.set_y(std::clamp(y, box[1].lo, box[1].hi));
+    machine.run(program.deep());
+    for (const graph::Instruction& i : program.code) {
+      const Interval bound = bounds[i.out];
+      ++(bound.known() ? tally.n_known : tally.n_unknown);
+      if (!bound.known()) continue;
+      for (std::size_t n = 0; n < graph::kPiece; ++n) {
+        const float v = machine.row(i.out)[n];
+        ASSERT_TRUE(v >= bound.lo && v <= bound.hi)
+            << "operation " << int(i.op) << " gives " << v << " at (" << machine.x()[n] << ", " << y
+            << ", " << machine.z()[n] << "), not in [" << bound.lo << ", " << bound.hi << "]";
+      }
+    }
+  }
+}
+
+TEST(Bounds, HoldEverySampleOfRandomGraphs) {
+  Tally tally;
+  for (std::uint32_t seed = 0; seed < 3000; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937 random(seed);
+    RandomGraph source(seed, seed % 2 == 0 ? Convention::density : Convention::sdf);
+    graph::Program program = graph::compile(source.graph(), source.grow(10));
+    if (program.code.size() > 400) continue;
+    keep_all(program);
+    for (int n = 0; n < 3; ++n) expect_inside(program, Block(random), random, tally);
+    if (HasFatalFailure()) return;
+  }
+  EXPECT_GT(tally.n_known, 2 * tally.n_unknown) << "bounds that know nothing hold everything";
+}
+
+/// Steepness is claimed for two points anywhere; cells far apart share gradients, so a few are
+/// enough.
+template <class Sample>
+void expect_no_steeper(Sample sample, double slope, double range) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> at(-40, 40), step(-0.02F, 0.02F);
+  double steepest = 0, largest = 0;
+  for (int n = 0; n < 400000; ++n) {
+    const std::array<float, 3> a{at(random), at(random), at(random)};
+    const std::array<float, 3> b{a[0] + step(random), a[1] + step(random), a[2] + step(random)};
+    const double va = sample(a), vb = sample(b);
+    const double distance =
+        std::hypot(double{a[0]} - b[0], double{a[1]} - b[1], double{a[2]} - b[2]);
+    if (distance > 1e-3) steepest = std::max(steepest, std::abs(va - vb) / distance);
+    largest = std::max(largest, std::abs(va));
+  }
+  EXPECT_LT(steepest, slope);
+  EXPECT_GT(steepest, slope * 0.4) << "a bound that loose is of no use";
+  EXPECT_LT(largest, range);
+}
+
+TEST(Bounds, NoisesAreNoSteeperThanClaimed) {
+  using At = const std::array<float, 3>&;
+  float out = 0;
+  expect_no_steeper([&](At p) { return graph::perlin2_row(&p[0], &p[1], 1, 3, 1, &out), out; }, 3.2,
+                    1.001);
+  expect_no_steeper(
+      [&](At p) { return graph::perlin3_row(&p[0], &p[1], &p[2], 1, 3, 1, &out), out; }, 3.7,
+      1.001);
+  expect_no_steeper([&](At p) { return graph::simplex2_row(&p[0], &p[1], 1, 3, 1, &out), out; },
+                    7.5, 1.001);
+  expect_no_steeper(
+      [&](At p) { return graph::simplex3_row(&p[0], &p[1], &p[2], 1, 3, 1, &out), out; }, 7.1,
+      1.001);
+}
+
+Interval of(graph::Op op, Interval a, Interval b = {}, std::array<float, 6> p = {},
+            bool same = false) {
+  const graph::Instruction i{.op = op,
+                             .in = {0, same ? 0U : 1U},
+                             .n_in = static_cast<std::uint8_t>(b.known() ? 2 : 1),
+                             .p = p};
+  return graph::bounds_of(i, {}, a, b, {});
+}
+
+TEST(Bounds, AreTightWhereTheyCanBe) {
+  const auto expect = [](Interval found, float lo, float hi) {
+    EXPECT_EQ(found.lo, lo);
+    EXPECT_EQ(found.hi, hi);
+  };
+  expect(of(graph::Op::mul, {-2, 3}, {-2, 3}, {}, true), 0, 9);
+  expect(of(graph::Op::mul, {-2, 3}, {-2, 3}), -6, 9);
+  expect(of(graph::Op::abs, {-2, 1}), 0, 2);
+  expect(of(graph::Op::fract, {1.25F, 1.5F}), 0.25F, 0.5F);
+  expect(of(graph::Op::smoothstep, {5, 9}, {}, {1, 2}), 1, 1);
+  expect(of(graph::Op::mod, {7, 8}, {5, 5}), 2, 3);
+  EXPECT_LT(of(graph::Op::pow, {-1, 2}, {2, 2}).hi, 4.001F);
+  EXPECT_GE(of(graph::Op::pow, {-1, 2}, {2, 2}).lo, 0.0F);
+  EXPECT_GT(of(graph::Op::sin, {0.1F, 0.2F}).lo, 0.0998F);
+}
+
+TEST(Bounds, DoNotVouchForWhatMayBeNoNumber) {
+  EXPECT_FALSE(of(graph::Op::sqrt, {-1, 1}).known());
+  EXPECT_FALSE(of(graph::Op::div, {1, 1}, {-1, 1}).known());
+  EXPECT_FALSE(of(graph::Op::mul, {0, 3e38F}, {0, 3e38F}).known());
+  EXPECT_FALSE(of(graph::Op::pow, {-1, 1}, {0.5F, 0.5F}).known());
+  EXPECT_FALSE(of(graph::Op::abs, {}).known());
+}
+
+}  // namespace
+}  // namespace mc::test

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "mc/graph.hpp"
+
+// Seeded random graphs that are valid: every type of node, inputs from all before it, numbers that
+// make most fields finite and few of them dull.
+
+namespace mc::test {
+
+class RandomGraph {
+ public:
+  RandomGraph(std::uint32_t seed, Convention convention)
+      : random_(seed), graph_({.seed = seed, .convention = convention, .iso = 0.25F}) {
+    for (const NodeType type : {NodeType::x, NodeType::y, NodeType::z}) {
+      ids_.push_back(graph_.add({.type = type}));
+    }
+  }
+
+  /// Adds n nodes; the last one depends on many of them.
+  NodeId grow(int n) {
+    for (int i = 0; i < n; ++i) ids_.push_back(graph_.add(node()));
+    return ids_.back();
+  }
+  [[nodiscard]] const Graph& graph() const { return graph_; }
+
+ private:
+  static constexpr auto kLast = static_cast<int>(NodeType::complement);
+
+  float real(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(random_); }
+  int whole(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(random_); }
+
+  /// Mostly a late node, so that graphs get deep.
+  NodeId input() {
+    const auto n = static_cast<int>(ids_.size());
+    const int back = std::min(whole(0, n - 1), whole(0, n - 1));
+    return ids_[static_cast<std::size_t>(n - 1 - back)];
+  }
+  std::vector<NodeId> inputs(int n) {
+    std::vector<NodeId> out;
+    for (int i = 0; i < n; ++i) out.push_back(input());
+    return out;
+  }
+
+  Node node() {
+    Node out;
+    out.type = static_cast<NodeType>(whole(0, kLast));
+    for (float& number : out.numbers) number = real(-3, 3);
+    out.seed = static_cast<std::uint32_t>(whole(0, 3));
+    if (whole(0, 2) == 0) out.dims = static_cast<Dims>(whole(0, 3));
+    complete(out);
+    return out;
+  }
+
+  void complete(Node& out) {
+    auto& p = out.numbers;
+    switch (out.type) {
+      case NodeType::add:
+      case NodeType::mul:
+      case NodeType::min:
+      case NodeType::max:
+        out.inputs = inputs(whole(1, 3));
+        return;
+      case NodeType::unite:
+      case NodeType::intersect:
+        out.inputs = inputs(whole(1, 3));
+        p[0] = whole(0, 1) == 0 ? 0 : std::abs(p[0]);
+        return;
+      case NodeType::difference:
+        out.inputs = inputs(2);
+        p[0] = whole(0, 1) == 0 ? 0 : std::abs(p[0]);
+        return;
+      case NodeType::sub:
+      case NodeType::div:
+      case NodeType::mod:
+        out.inputs = inputs(2);
+        return;
+      case NodeType::pow:
+        out.inputs = {input(), graph_.add({.numbers = {static_cast<float>(whole(-2, 4)) * 0.5F}})};
+        return;
+      case NodeType::mix:
+        out.inputs = inputs(3);
+        return;
+      case NodeType::perlin:
+      case NodeType::simplex:
+        p[0] = std::exp2(p[0] - 3);
+        return;
+      case NodeType::unity_perlin2d:
+        p[0] = std::exp2(p[0] - 3);
+        if (whole(0, 1) == 0) out.inputs = inputs(2);
+        return;
+      case NodeType::fbm:
+        out.inputs = inputs(1);
+        out.octaves = static_cast<std::uint32_t>(whole(1, 3));
+        p = {2, 0.5F, whole(0, 1) == 0 ? 0 : std::abs(p[2]) / 3};
+        return;
+      case NodeType::warp:
+        out.inputs = inputs(2);
+        return;
+      case NodeType::clamp:
+      case NodeType::smoothstep:
+        out.inputs = inputs(1);
+        p[1] = p[0] + std::abs(p[1]) + 0.1F;
+        return;
+      case NodeType::remap:
+        out.inputs = inputs(1);
+        p[1] = p[0] + std::copysign(std::abs(p[1]) + 0.1F, p[1]);
+        return;
+      case NodeType::box:
+        for (std::size_t n = 3; n < 6; ++n) p[n] = std::abs(p[n]) * 2;
+        return;
+      case NodeType::torus:
+        p[4] = std::abs(p[4]) / 3;
+        p[3] = std::abs(p[3]);
+        out.axis = static_cast<std::uint8_t>(whole(0, 2));
+        return;
+      case NodeType::sphere:
+        p[3] = std::abs(p[3]);
+        return;
+      case NodeType::constant:
+      case NodeType::x:
+      case NodeType::y:
+      case NodeType::z:
+      case NodeType::plane:
+        return;
+      default:
+        out.inputs = inputs(1);
+    }
+  }
+
+  std::mt19937 random_;
+  Graph graph_;
+  std::vector<NodeId> ids_;
+};
+
+}  // namespace mc::test
