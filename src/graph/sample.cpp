@@ -79,6 +79,11 @@ void Machine::run(const Instruction& instruction) {
     case Op::box:
     case Op::plane:
     case Op::torus:
+    case Op::cylinder:
+    case Op::cone:
+    case Op::capsule:
+    case Op::ellipsoid:
+    case Op::gyroid:
       return solid_row(instruction, a, b, c, n_, out);
     default:
       return arithmetic_row(instruction, a, b, c, n_, out);

@@ -194,7 +194,14 @@ struct Golden {
   NodeType type;
   std::array<float, 6> numbers;
   std::uint64_t hash;
+  std::vector<float> list{};
 };
+
+/// Whether the golden bits are of this node over noise; else its inputs are the coordinates.
+bool is_over_noise(NodeType type) {
+  return type == NodeType::fbm || type == NodeType::warp || type == NodeType::affine ||
+         type == NodeType::mirror || type == NodeType::repeat;
+}
 
 // The formulas are final: whoever makes them faster must leave these alone. Inputs are the
 // coordinates; the lattice has negative, zero and large places.
@@ -213,10 +220,14 @@ TEST(Graph, FormulasKeepTheirBits) {
     Node node = make(g.type, inputs, g.numbers);
     node.seed = 7;
     node.octaves = 4;
+    node.list = g.list;
     if (std::string_view(g.name).ends_with(" xz")) {
       node.dims = Dims::xz;
     }
-    if (g.type == NodeType::fbm || g.type == NodeType::warp) {
+    if (std::string_view(g.name).ends_with(" smooth")) {
+      node.curve_shape = CurveShape::smooth;
+    }
+    if (is_over_noise(g.type)) {
       node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
     }
     const auto values =
