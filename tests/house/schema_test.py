@@ -2,7 +2,7 @@
 """Holds data/mc-volume.schema.json against its meta-schema, the loader's node types and documents.
 
 Every shipped document and every example of mc-volume(5) is valid; every node type of the loader has
-its schema and its place in a good document of the corpus; and of the documents that the loader
+its schema, its picture and its place in a good document of the corpus; and of the documents that the loader
 refuses, in the corpus and in the unit test's list, the schema refuses all but those whose fault only
 a program can see.
 """
@@ -103,6 +103,11 @@ def main():
     for name in sorted(types):
         if not re.search(rf"^\*\*.*\b{name}\*\*|^\*\*{name}\*\*", page, re.MULTILINE):
             faults.append(f"{name}: has no entry in mc-volume(5)")
+    drawn = (ROOT / "data" / "nodes.md").read_text()
+    for name in sorted(types):
+        picture = ROOT / "data" / "pictures" / "nodes" / f"{name}.png"
+        if f"pictures/nodes/{name}.png" not in drawn or not picture.is_file():
+            faults.append(f"{name}: has no picture: see scripts/node_pictures.py")
     if len(types) < 35 or len(listed) < 40:
         faults.append("the loader's types or the list of faults were not found")
     print("\n".join(faults) or f"{len(types)} types, {len(listed)} faults")
