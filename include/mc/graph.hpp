@@ -48,20 +48,38 @@ enum class NodeType : std::uint8_t {
   remap,           ///< source; from, from, to, to
   smoothstep,      ///< source; lower edge, upper edge
   mix,             ///< a, b, t; -
+  select,          ///< a, b, control; threshold, width of the blend
+  curve,           ///< source; -. list: x, y of each point. Also curve_shape
+  terrace,         ///< source; step, offset, ramp. list: instead of step and offset the levels
+  floor_hard,      ///< source; height, weight
   perlin,          ///< -; frequency. Also seed, dims
   simplex,         ///< -; frequency. Also seed, dims
   unity_perlin2d,  ///< - (then dims), or its two coordinates; frequency
   fbm,             ///< source; lacunarity, gain, weighted. Also octaves, dims
   warp,            ///< source, warp; amplitude
+  affine,          ///< source; factor of value - iso (0: left alone). list: as Node says
+  mirror,          ///< source; place, side kept: 1 above, -1 below. Also axis
+  repeat,          ///< source; periods x, y, z (0: none), copies x, y, z (0: without end)
   sphere,          ///< -; centre x, y, z, radius
   box,             ///< -; centre x, y, z, full sizes x, y, z
   plane,           ///< -; unit normal x, y, z, offset along it
   torus,           ///< -; centre x, y, z, ring's radius, tube's radius. Also axis
+  roundbox,        ///< -; centre x, y, z, full sizes x, y, z. list: radius
+  capsule,         ///< -; -. list: the ends x, y, z, x, y, z, the radii there
+  cylinder,        ///< -; centre x, y, z, radius, height. Also axis
+  cone,            ///< -; centre x, y, z, radii at bottom and top, height. Also axis
+  ellipsoid,       ///< -; centre x, y, z, radii x, y, z
+  gyroid,          ///< -; centre x, y, z, period, thickness (0: one half of space)
   unite,           ///< one or more; smooth radius
   intersect,       ///< one or more; smooth radius
   difference,      ///< a, b; smooth radius
   complement,      ///< source; -
+  offset,          ///< source; distance
+  shell,           ///< source; thickness, its middle's depth below the surface
 };
+
+/// How a curve runs from point to point: straight; by a monotone cubic; held until the next point.
+enum class CurveShape : std::uint8_t { linear, smooth, steps };
 
 /// Names a node of one Graph.
 enum class NodeId : std::uint32_t {};
@@ -70,10 +88,15 @@ struct Node {
   NodeType type = NodeType::constant;
   std::vector<NodeId> inputs{};    ///< in the order that NodeType names them
   std::array<float, 6> numbers{};  ///< finite; places as NodeType says
-  std::uint32_t seed = 0;          ///< generators
-  std::uint32_t octaves = 1;       ///< fbm: 1 to 32
-  std::uint8_t axis = 1;           ///< torus: 0, 1, 2: the axis around which the ring runs
-  std::optional<Dims> dims{};      ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
+  /// More numbers, finite. affine: a 3 x 4 matrix, row by row, that takes a point to the point
+  /// where the source is looked up. curve: at least two points, x rising. terrace: at least two,
+  /// rising.
+  std::vector<float> list{};
+  std::uint32_t seed = 0;     ///< generators
+  std::uint32_t octaves = 1;  ///< fbm: 1 to 32
+  std::uint8_t axis = 1;      ///< 0, 1, 2: what a torus, cylinder or cone turns around
+  CurveShape curve_shape = CurveShape::linear;
+  std::optional<Dims> dims{};  ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
 };
 
 struct GraphSettings {
@@ -126,7 +149,7 @@ class Graph {
   explicit Graph(const GraphSettings& settings) : settings_(settings) {}
 
   /// Errors   usage: an unknown or missing input, octaves or axis out of range, a number that is
-  ///          not finite, too many or too deeply nested nodes.
+  ///          not finite, a list of another size or order, too many or too deeply nested nodes.
   NodeId add(Node node);
 
   [[nodiscard]] const GraphSettings& settings() const { return settings_; }

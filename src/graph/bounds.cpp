@@ -333,6 +333,17 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return torus(in, instruction);
     case Op::copy:
       return a;
+    case Op::select:
+    case Op::blend:
+    case Op::curve:
+    case Op::terrace:
+    case Op::repeat:
+    case Op::cylinder:
+    case Op::cone:
+    case Op::capsule:
+    case Op::ellipsoid:
+    case Op::gyroid:
+      return kUnknown;
   }
   return kUnknown;
 }

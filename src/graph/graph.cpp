@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -34,6 +35,12 @@ Arity arity_of(NodeType type) {
     case NodeType::box:
     case NodeType::plane:
     case NodeType::torus:
+    case NodeType::roundbox:
+    case NodeType::capsule:
+    case NodeType::cylinder:
+    case NodeType::cone:
+    case NodeType::ellipsoid:
+    case NodeType::gyroid:
       return {0, 0};
     case NodeType::unity_perlin2d:
       return {0, 2};
@@ -52,9 +59,36 @@ Arity arity_of(NodeType type) {
     case NodeType::difference:
       return {2, 2};
     case NodeType::mix:
+    case NodeType::select:
       return {3, 3};
     default:
       return {1, 1};
+  }
+}
+
+/// Whether the list has the size and order that the type wants.
+bool is_good_list(const Node& node) {
+  const std::vector<float>& list = node.list;
+  const std::size_t n = list.size();
+  switch (node.type) {
+    case NodeType::affine:
+      return n == 12;
+    case NodeType::roundbox:
+      return n == 1;
+    case NodeType::capsule:
+      return n == 8;
+    case NodeType::terrace:
+      return n == 0 || (n >= 2 && std::adjacent_find(list.begin(), list.end(),
+                                                     std::greater_equal<>()) == list.end());
+    case NodeType::curve:
+      for (std::size_t at = 2; at < n; at += 2) {
+        if (!(list[at - 2] < list[at])) {
+          return false;
+        }
+      }
+      return n >= 4 && n % 2 == 0;
+    default:
+      return n == 0;
   }
 }
 
@@ -73,9 +107,14 @@ void check_node(const Node& node) {
   if (node.axis > 2) {
     refuse("axis is " + std::to_string(node.axis) + ": expected 0, 1 or 2");
   }
-  if (!std::all_of(node.numbers.begin(), node.numbers.end(),
-                   [](float v) { return std::isfinite(v); })) {
+  const auto finite = [](float v) { return std::isfinite(v); };
+  if (!std::all_of(node.numbers.begin(), node.numbers.end(), finite) ||
+      !std::all_of(node.list.begin(), node.list.end(), finite)) {
     refuse("a node's number is not finite");
+  }
+  if (!is_good_list(node)) {
+    refuse("a node's list of " + std::to_string(node.list.size()) +
+           " numbers is not what its type needs");
   }
 }
 

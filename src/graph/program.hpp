@@ -36,6 +36,11 @@ enum class Op : std::uint8_t {
   remap,         // (a - p0) * p1 + p2
   smoothstep,    // t = clamp((a - p0) / p1)
   mix,           // a + (b - a) * c
+  select,        // c < p0 ? a : b
+  blend,         // a + (b - a) * smoothstep of c over [p0, p0 + p1]
+  curve,         // b where a < p0, else the cubic p1 + p2 t + p3 t^2 + p4 t^3, t = a - p0
+  terrace,       // steps of p0 from p3, flat up to p1 of a step, then rising by p2 a step
+  repeat,        // a - p0 * n, n the nearest whole number of periods within [p1, p2]
   scale,         // a * p0
   accumulate,    // a + b * p0
   multiply_add,  // a + b * c, rounded twice
@@ -52,8 +57,13 @@ enum class Op : std::uint8_t {
   sphere,  // signed distances, positive inside; coordinates a, b, c; p as Node::numbers
   box,
   plane,
-  torus,  // coordinates permuted so that b runs along the axis
-  copy,   // a; of pruned programs only
+  torus,      // from here: coordinates permuted so that b runs along the axis
+  cylinder,   // p3 radius, p4 half the height
+  cone,       // p3, p4 radii, p5 half the height
+  capsule,    // from the origin along b; p0 length, p1, p2 radii, p3, p4 slope: sine and cosine
+  ellipsoid,  // p as Node::numbers
+  gyroid,     // p0..p2 centre, p3 radians a unit
+  copy,       // a; of pruned programs only
 };
 
 /// A value is named by its place in Program::code.

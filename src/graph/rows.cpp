@@ -18,6 +18,11 @@ void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
     case Op::box:
     case Op::plane:
     case Op::torus:
+    case Op::cylinder:
+    case Op::cone:
+    case Op::capsule:
+    case Op::ellipsoid:
+    case Op::gyroid:
       return solid_row(instruction, a, b, c, n, out);
     default:
       return arithmetic_row(instruction, a, b, c, n, out);

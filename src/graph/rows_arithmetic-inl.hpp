@@ -64,6 +64,38 @@ float weighed(float amplitude, float noise, float gain, float weight) noexcept {
 
 float modulo(float a, float b) noexcept { return a - b * exact_floor(a / b); }
 
+/// A control that is NaN gives NaN.
+float selected(float a, float b, float control, float threshold) noexcept {
+  const float upper = control >= threshold ? b : control;
+  return control < threshold ? a : upper;
+}
+
+/// a and b themselves outside the band.
+float blended(float a, float b, float control, float edge, float width) noexcept {
+  const float t = smooth_step(control, edge, width);
+  const float between = a + (b - a) * t;
+  const float upper = t >= 1.0F ? b : between;
+  return t <= 0.0F ? a : upper;
+}
+
+float curve_piece(float v, float below, const std::array<float, 6>& p) noexcept {
+  const float t = v - p[0];
+  const float cubic = ((p[4] * t + p[3]) * t + p[2]) * t + p[1];
+  return v < p[0] ? below : cubic;
+}
+
+float terraced(float v, const std::array<float, 6>& p) noexcept {
+  const float level = (v - p[3]) / p[0];
+  const float whole = exact_floor(level);
+  const float rise = least(greatest((level - whole) - p[1], 0.0F) * p[2], 1.0F);
+  return (whole + rise) * p[0] + p[3];
+}
+
+/// The coordinate within the nearest copy.
+float repeated(float v, const std::array<float, 6>& p) noexcept {
+  return v - p[0] * clamped(exact_floor(v / p[0] + 0.5F), p[1], p[2]);
+}
+
 void one_input_row(const Instruction& instruction, Row a, std::size_t n, OutRow out) noexcept {
   const auto& p = instruction.p;
   switch (instruction.op) {
@@ -91,6 +123,10 @@ void one_input_row(const Instruction& instruction, Row a, std::size_t n, OutRow 
       return map1(a, n, out, [&](float u) { return p[0] + u; });
     case Op::mirror:
       return map1(a, n, out, [&](float u) { return p[0] - u; });
+    case Op::terrace:
+      return map1(a, n, out, [&](float u) { return terraced(u, p); });
+    case Op::repeat:
+      return map1(a, n, out, [&](float u) { return repeated(u, p); });
     default:
       assert(false && "not an arithmetic instruction");
   }
@@ -125,6 +161,8 @@ void two_input_row(const Instruction& instruction, Row a, Row b, std::size_t n,
     case Op::smooth_max:
       return map2(a, b, n, out,
                   [&](float u, float v) { return greatest(u, v) + blend(u, v, p[0]); });
+    case Op::curve:
+      return map2(a, b, n, out, [&](float u, float v) { return curve_piece(u, v, p); });
     default:
       return one_input_row(instruction, a, n, out);
   }
@@ -144,6 +182,13 @@ void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::si
       return map3(a, b, c, n, out, [](float u, float v, float t) { return u + (v - u) * t; });
     case Op::multiply_add:
       return map3(a, b, c, n, out, [](float u, float v, float w) { return u + v * w; });
+    case Op::select:
+      return map3(a, b, c, n, out,
+                  [&](float u, float v, float w) { return selected(u, v, w, instruction.p[0]); });
+    case Op::blend:
+      return map3(a, b, c, n, out, [&](float u, float v, float w) {
+        return blended(u, v, w, instruction.p[0], instruction.p[1]);
+      });
     default:
       return two_input_row(instruction, a, b, n, out);
   }

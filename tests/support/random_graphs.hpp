@@ -31,7 +31,7 @@ class RandomGraph {
   [[nodiscard]] const Graph& graph() const { return graph_; }
 
  private:
-  static constexpr auto kLast = static_cast<int>(NodeType::complement);
+  static constexpr auto kLast = static_cast<int>(NodeType::shell);
 
   float real(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(random_); }
   int whole(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(random_); }
@@ -45,6 +45,12 @@ class RandomGraph {
   std::vector<NodeId> inputs(int n) {
     std::vector<NodeId> out;
     for (int i = 0; i < n; ++i) out.push_back(input());
+    return out;
+  }
+
+  std::vector<float> rising(int n) {
+    std::vector<float> out{real(-3, 0)};
+    while (static_cast<int>(out.size()) < n) out.push_back(out.back() + real(0.1F, 2));
     return out;
   }
 
@@ -87,6 +93,37 @@ class RandomGraph {
       case NodeType::mix:
         out.inputs = inputs(3);
         return;
+      case NodeType::select:
+        out.inputs = inputs(3);
+        p[1] = whole(0, 1) == 0 ? 0 : std::abs(p[1]);
+        return;
+      case NodeType::curve:
+        out.inputs = inputs(1);
+        out.curve_shape = static_cast<CurveShape>(whole(0, 2));
+        for (const float x : rising(whole(2, 4))) out.list.insert(out.list.end(), {x, real(-3, 3)});
+        return;
+      case NodeType::terrace:
+        out.inputs = inputs(1);
+        p = {std::abs(p[0]) + 0.1F, p[1], real(0, 1)};
+        if (whole(0, 1) == 0) out.list = rising(whole(2, 4));
+        return;
+      case NodeType::affine:
+        out.inputs = inputs(1);
+        p[0] = whole(0, 1) == 0 ? 0 : p[0];
+        for (int n = 0; n < 12; ++n) out.list.push_back(whole(0, 2) == 0 ? 0 : real(-2, 2));
+        return;
+      case NodeType::mirror:
+        out.inputs = inputs(1);
+        p[1] = whole(0, 1) == 0 ? -1 : 1;
+        out.axis = static_cast<std::uint8_t>(whole(0, 2));
+        return;
+      case NodeType::repeat:
+        out.inputs = inputs(1);
+        for (std::size_t n = 0; n < 3; ++n) {
+          p[n] = std::max(p[n] + 1, 0.0F);
+          p[n + 3] = static_cast<float>(whole(0, 3));
+        }
+        return;
       case NodeType::perlin:
       case NodeType::simplex:
         p[0] = std::exp2(p[0] - 3);
@@ -119,6 +156,28 @@ class RandomGraph {
         p[4] = std::abs(p[4]) / 3;
         p[3] = std::abs(p[3]);
         out.axis = static_cast<std::uint8_t>(whole(0, 2));
+        return;
+      case NodeType::roundbox:
+        for (std::size_t n = 3; n < 6; ++n) p[n] = 1 + std::abs(p[n]) * 2;
+        out.list = {real(0, 0.5F)};
+        return;
+      case NodeType::capsule:
+        for (int n = 0; n < 6; ++n) out.list.push_back(real(-3, 3));
+        for (int n = 0; n < 2; ++n) out.list.push_back(real(0.1F, 2));
+        return;
+      case NodeType::cylinder:
+      case NodeType::cone:
+      case NodeType::ellipsoid:
+        for (std::size_t n = 3; n < 6; ++n) p[n] = 0.1F + std::abs(p[n]);
+        out.axis = static_cast<std::uint8_t>(whole(0, 2));
+        return;
+      case NodeType::gyroid:
+        p[3] = 0.5F + std::abs(p[3]);
+        p[4] = whole(0, 1) == 0 ? 0 : std::abs(p[4]) / 6;
+        return;
+      case NodeType::shell:
+        out.inputs = inputs(1);
+        p[0] = std::abs(p[0]);
         return;
       case NodeType::sphere:
         p[3] = std::abs(p[3]);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "source/spec/node_numbers.hpp"
+
 // One small function for each family of node types reads its keys. Names are loaded where they are
 // first referred to; a name that is still open when it is met again closes a ring.
 
@@ -34,19 +36,37 @@ const std::map<std::string, NodeType, std::less<>>& node_types() {
       {"remap", NodeType::remap},
       {"smoothstep", NodeType::smoothstep},
       {"mix", NodeType::mix},
+      {"select", NodeType::select},
+      {"curve", NodeType::curve},
+      {"terrace", NodeType::terrace},
+      {"floor-hard", NodeType::floor_hard},
       {"perlin", NodeType::perlin},
       {"simplex", NodeType::simplex},
       {"unity-perlin2d", NodeType::unity_perlin2d},
       {"fbm", NodeType::fbm},
       {"warp", NodeType::warp},
+      {"translate", NodeType::affine},
+      {"rotate", NodeType::affine},
+      {"scale", NodeType::affine},
+      {"affine", NodeType::affine},
+      {"mirror", NodeType::mirror},
+      {"repeat", NodeType::repeat},
       {"sphere", NodeType::sphere},
       {"box", NodeType::box},
       {"plane", NodeType::plane},
       {"torus", NodeType::torus},
+      {"roundbox", NodeType::roundbox},
+      {"capsule", NodeType::capsule},
+      {"cylinder", NodeType::cylinder},
+      {"cone", NodeType::cone},
+      {"ellipsoid", NodeType::ellipsoid},
+      {"gyroid", NodeType::gyroid},
       {"union", NodeType::unite},
       {"intersection", NodeType::intersect},
       {"difference", NodeType::difference},
       {"complement", NodeType::complement},
+      {"offset", NodeType::offset},
+      {"shell", NodeType::shell},
       {"x", NodeType::x},
       {"y", NodeType::y},
       {"z", NodeType::z},
@@ -58,14 +78,6 @@ bool is_coordinate(std::string_view name) { return name == "x" || name == "y" ||
 
 NodeType coordinate_type(std::string_view name) {
   return name == "x" ? NodeType::x : name == "y" ? NodeType::y : NodeType::z;
-}
-
-void put(Node& node, std::size_t at, double value) { node.numbers[at] = static_cast<float>(value); }
-
-void put3(Node& node, std::size_t at, const Vec3& value) {
-  for (std::size_t n = 0; n < 3; ++n) {
-    put(node, at + n, value[n]);
-  }
 }
 
 constexpr std::int64_t kMostSeed = 0xFFFFFFFFLL;
@@ -108,6 +120,10 @@ NodeId NodeLoader::break_limit(const JsonValue& at, const std::string& message) 
 }
 
 NodeId NodeLoader::add(Node node, const JsonValue& at) {
+  if (!std::all_of(node.list.begin(), node.list.end(), [](float v) { return std::isfinite(v); })) {
+    document_.fault(at, "works out to numbers past +-3.4e38 (float32): expected smaller ones");
+    return harmless_;
+  }
   if (graph_.size() >= Graph::kMaxNodes || node.inputs.size() > Graph::kMaxNodes) {
     return break_limit(at, "is one node more than the " + std::to_string(Graph::kMaxNodes) +
                                " that a document may hold");
@@ -219,7 +235,7 @@ NodeId NodeLoader::load_object(const JsonValue& value) {
   own.optional("type");
   Node node;
   node.type = found->second;
-  fill(node, own);
+  fill(node, own, type->text);
   own.finish();
   return document_.faults.empty() ? add(std::move(node), value) : harmless_;
 }
@@ -253,7 +269,7 @@ void NodeLoader::take_inputs(Node& node, ObjectReader& keys) {
   }
 }
 
-void NodeLoader::fill(Node& node, ObjectReader& keys) {
+void NodeLoader::fill(Node& node, ObjectReader& keys, const std::string& name) {
   switch (node.type) {
     case NodeType::x:
     case NodeType::y:
@@ -291,11 +307,29 @@ void NodeLoader::fill(Node& node, ObjectReader& keys) {
       return fill_unity(node, keys);
     case NodeType::fbm:
       return fill_fbm(node, keys);
+    case NodeType::select:
+    case NodeType::curve:
+    case NodeType::terrace:
+    case NodeType::floor_hard:
+      return fill_control(node, keys);
+    case NodeType::affine:
+    case NodeType::mirror:
+    case NodeType::repeat:
+      return fill_transform(node, keys, name);
     case NodeType::sphere:
     case NodeType::box:
     case NodeType::plane:
     case NodeType::torus:
+    case NodeType::roundbox:
+    case NodeType::capsule:
+    case NodeType::cylinder:
+    case NodeType::cone:
+    case NodeType::ellipsoid:
+    case NodeType::gyroid:
       return fill_solid(node, keys);
+    case NodeType::offset:
+    case NodeType::shell:
+      return fill_shell(node, keys);
     default:
       take_input(node, keys, "source");
       return fill_shaping(node, keys);
@@ -377,28 +411,6 @@ void NodeLoader::fill_fbm(Node& node, ObjectReader& keys) {
   put(node, 2, keys.number("weighted", 0, kWeighted));
   if (keys.optional("dims") != nullptr) {
     node.dims = Dims(keys.choice("dims", std::nullopt, {"xyz", "xy", "xz", "yz"}));
-  }
-}
-
-void NodeLoader::fill_solid(Node& node, ObjectReader& keys) {
-  if (node.type == NodeType::plane) {
-    const Vec3 n = keys.numbers<3>("normal", Vec3{0, 1, 0}, kAnyFloat);
-    const double length = std::sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]);
-    put(node, 3, keys.number("offset", 0, kAnyFloat));
-    if (!(length > 0)) {
-      document_.fault(*keys.value().find("normal"), "has no direction: expected a length above 0");
-      return;
-    }
-    return put3(node, 0, {n[0] / length, n[1] / length, n[2] / length});
-  }
-  put3(node, 0, keys.numbers<3>("center", Vec3{0, 0, 0}, kAnyFloat));
-  if (node.type == NodeType::box) {
-    return put3(node, 3, keys.numbers<3>("size", std::nullopt, kPositiveFloat, true));
-  }
-  put(node, 3, keys.number("radius", std::nullopt, kPositiveFloat));
-  if (node.type == NodeType::torus) {
-    put(node, 4, keys.number("tube", std::nullopt, kPositiveFloat));
-    node.axis = static_cast<std::uint8_t>(keys.choice("axis", 1, {"x", "y", "z"}));
   }
 }
 

@@ -37,12 +37,19 @@ class NodeLoader {
   NodeId load_name(const JsonValue& reference);
   NodeId load_object(const JsonValue& value);
   NodeId resolve(const std::string& name, const JsonValue& reference);
-  void fill(Node& node, ObjectReader& keys);
+  /// `name` is the type's: translate, rotate, scale and affine are one NodeType.
+  void fill(Node& node, ObjectReader& keys, const std::string& name);
   void fill_generator(Node& node, ObjectReader& keys);
   void fill_unity(Node& node, ObjectReader& keys);
   void fill_fbm(Node& node, ObjectReader& keys);
   void fill_solid(Node& node, ObjectReader& keys);
+  void fill_shell(Node& node, ObjectReader& keys);
   void fill_shaping(Node& node, ObjectReader& keys);
+  void fill_control(Node& node, ObjectReader& keys);
+  void fill_points(Node& node, ObjectReader& keys);
+  void fill_steps(Node& node, ObjectReader& keys);
+  void fill_transform(Node& node, ObjectReader& keys, const std::string& name);
+  void fill_repeat(Node& node, ObjectReader& keys);
   void take_input(Node& node, ObjectReader& keys, const char* key);
   void take_inputs(Node& node, ObjectReader& keys);
   NodeId add(Node node, const JsonValue& at);

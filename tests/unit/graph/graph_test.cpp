@@ -195,7 +195,14 @@ struct Golden {
   NodeType type;
   std::array<float, 6> numbers;
   std::uint64_t hash;
+  std::vector<float> list{};
 };
+
+/// Whether the golden bits are of this node over noise; else its inputs are the coordinates.
+bool is_over_noise(NodeType type) {
+  return type == NodeType::fbm || type == NodeType::warp || type == NodeType::affine ||
+         type == NodeType::mirror || type == NodeType::repeat;
+}
 
 // The formulas are final: whoever makes them faster must leave these alone, on every SIMD target.
 // Inputs are the coordinates; the lattice has negative, zero and large places.
@@ -210,10 +217,14 @@ std::vector<float> golden_values(const Golden& golden) {
   Node node = make(golden.type, inputs, golden.numbers);
   node.seed = 7;
   node.octaves = 4;
+  node.list = golden.list;
   if (std::string_view(golden.name).ends_with(" xz")) {
     node.dims = Dims::xz;
   }
-  if (golden.type == NodeType::fbm || golden.type == NodeType::warp) {
+  if (std::string_view(golden.name).ends_with(" smooth")) {
+    node.curve_shape = CurveShape::smooth;
+  }
+  if (is_over_noise(golden.type)) {
     node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
   }
   return sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83}, {67, 9, 11});

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "graph/lower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mc::graph {
+
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
+
+Vec3 scaled(const Vec3& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
+
+Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The slope at each point: 0 at the ends and at turns, else the harmonic mean of its neighbours,
+/// weighted by the intervals' widths.
+std::vector<double> monotone_slopes(const std::vector<double>& width,
+                                    const std::vector<double>& slope) {
+  std::vector<double> at(width.size() + 1, 0.0);
+  for (std::size_t n = 1; n < width.size(); ++n) {
+    const double before = slope[n - 1];
+    const double after = slope[n];
+    if ((before > 0 && after > 0) || (before < 0 && after < 0)) {
+      const double w1 = 2 * width[n] + width[n - 1];
+      const double w2 = width[n] + 2 * width[n - 1];
+      at[n] = (w1 + w2) / (w1 / before + w2 / after);
+    }
+  }
+  return at;
+}
+
+Numbers piece(double x, double c0, double c1 = 0, double c2 = 0, double c3 = 0) {
+  return {static_cast<float>(x), static_cast<float>(c0), static_cast<float>(c1),
+          static_cast<float>(c2), static_cast<float>(c3)};
+}
+
+/// A capsule's ends. Where the ball of one holds the other's, both are that ball's.
+struct Ends {
+  Vec3 first;
+  Vec3 way;
+  double length;
+  float first_radius;
+  float last_radius;
+};
+
+Ends ends_of(std::span<const float> list) {
+  const Vec3 first{list[0], list[1], list[2]};
+  const Vec3 last{list[3], list[4], list[5]};
+  const Vec3 way = minus(last, first);
+  const double length = std::sqrt(dot(way, way));
+  if (length > std::abs(double{list[6]} - double{list[7]})) {
+    return {first, way, length, list[6], list[7]};
+  }
+  const float radius = std::max(list[6], list[7]);
+  return {list[6] < list[7] ? last : first, {0, 1, 0}, 0, radius, radius};
+}
+
+/// The slope's sine and cosine: how the surface leans between the ends.
+Numbers capsule_numbers(const Ends& ends) {
+  const double fall = double{ends.first_radius} - double{ends.last_radius};
+  const double sine = ends.length > 0 ? fall / ends.length : 0;
+  return {static_cast<float>(ends.length), ends.first_radius, ends.last_radius,
+          static_cast<float>(sine), static_cast<float>(std::sqrt(1 - sine * sine))};
+}
+
+/// World points into the frame with this origin and second axis.
+std::vector<float> frame_along(const Vec3& origin, const Vec3& way) {
+  const Vec3 along = scaled(way, 1 / std::sqrt(dot(way, way)));
+  const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto least = std::min_element(along.begin(), along.end(), smaller) - along.begin();
+  Vec3 axis{};
+  axis[static_cast<std::size_t>(least)] = 1;
+  const Vec3 upright = minus(axis, scaled(along, dot(axis, along)));
+  const Vec3 across = scaled(upright, 1 / std::sqrt(dot(upright, upright)));
+  std::vector<float> matrix;
+  for (const Vec3& row : {across, along, cross(across, along)}) {
+    for (const double v : row) {
+      matrix.push_back(static_cast<float>(v));
+    }
+    matrix.push_back(static_cast<float>(-dot(row, origin)));
+  }
+  return matrix;
+}
+
+}  // namespace
+
+CurvePieces curve_pieces(std::span<const float> points, CurveShape shape) {
+  const std::size_t n_pieces = points.size() / 2 - 1;
+  std::vector<double> width(n_pieces);
+  std::vector<double> slope(n_pieces);
+  for (std::size_t n = 0; n < n_pieces; ++n) {
+    width[n] = double{points[2 * n + 2]} - double{points[2 * n]};
+    slope[n] = (double{points[2 * n + 3]} - double{points[2 * n + 1]}) / width[n];
+  }
+  const std::vector<double> at = monotone_slopes(width, slope);
+  CurvePieces curve{.first = points[1],
+                    .pieces = {},
+                    .end_x = points[2 * n_pieces],
+                    .last = points[2 * n_pieces + 1]};
+  for (std::size_t n = 0; n < n_pieces; ++n) {
+    const double x = double{points[2 * n]};
+    const double y = double{points[2 * n + 1]};
+    if (shape == CurveShape::steps) {
+      curve.pieces.push_back(piece(x, y));
+    } else if (shape == CurveShape::linear) {
+      curve.pieces.push_back(piece(x, y, slope[n]));
+    } else {
+      const double c2 = (3 * slope[n] - 2 * at[n] - at[n + 1]) / width[n];
+      const double c3 = (at[n] + at[n + 1] - 2 * slope[n]) / (width[n] * width[n]);
+      curve.pieces.push_back(piece(x, y, at[n], c2, c3));
+    }
+  }
+  return curve;
+}
+
+CurvePieces terrace_pieces(std::span<const float> levels, float ramp) {
+  CurvePieces curve{
+      .first = levels.front(), .pieces = {}, .end_x = levels.back(), .last = levels.back()};
+  for (std::size_t n = 0; n + 1 < levels.size(); ++n) {
+    const double low = double{levels[n]};
+    const double height = double{levels[n + 1]} - low;
+    curve.pieces.push_back(piece(low, low));
+    if (ramp > 0) {
+      curve.pieces.push_back(piece(low + height * (1 - double{ramp}), low, 1 / double{ramp}));
+    }
+  }
+  return curve;
+}
+
+SolidCode solid_code(const Node& solid) {
+  constexpr float kTurn = 6.28318531F;
+  Numbers p = solid.numbers;
+  switch (solid.type) {
+    case NodeType::box:
+      return {Op::box, p};
+    case NodeType::plane:
+      return {Op::plane, p};
+    case NodeType::torus:
+      return {Op::torus, p, true};
+    case NodeType::roundbox:
+      for (std::size_t axis = 3; axis < 6; ++axis) {
+        p[axis] = p[axis] - 2.0F * solid.list[0];
+      }
+      return {Op::box, p};
+    case NodeType::cylinder:
+      p[4] = 0.5F * p[4];
+      return {Op::cylinder, p, true};
+    case NodeType::cone:
+      p[5] = 0.5F * p[5];
+      return {Op::cone, p, true};
+    case NodeType::ellipsoid:
+      return {Op::ellipsoid, p};
+    case NodeType::gyroid:
+      p[3] = kTurn / p[3];
+      return {Op::gyroid, p};
+    case NodeType::capsule:
+      return {Op::capsule, capsule_numbers(ends_of(solid.list))};
+    default:
+      return {Op::sphere, p};
+  }
+}
+
+std::vector<float> capsule_frame(std::span<const float> list) {
+  const Ends ends = ends_of(list);
+  return frame_along(ends.first, ends.way);
+}
+
+}  // namespace mc::graph
