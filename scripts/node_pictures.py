@@ -169,8 +169,8 @@ def page():
     lines = [
         "# The nodes of mc-volume", "",
         "Written by `scripts/node_pictures.py`, which drew the pictures from what `mc sample` wrote.",
-        "mc-volume(5) has the formulas. Each picture is the square from -2 to 2, x to the right, y up (z:",
-        "z up). Warm is solid, lines are 1/4 apart; grey runs from the least value to the largest. The",
+        "mc-volume(5) has the formulas. Each picture is the square from -2 to 2, x to the right, y up (for",
+        "z itself, z). Warm is solid, lines are 1/4 apart; grey runs from the least value to the largest. The",
         "graph of a function of x is shown as the area under it.", "",
     ]
     for section, nodes in SECTIONS.items():

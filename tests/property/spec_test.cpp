@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
+
+#include "fuzz/replay_graph.hpp"
+
+// Random valid documents: the loader takes them, and their bits depend on nothing but the text.
+
+namespace mc::tests {
+namespace {
+
+std::vector<std::uint8_t> random_bytes(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::vector<std::uint8_t> bytes(50 + random() % 300);
+  for (std::uint8_t& byte : bytes) {
+    byte = static_cast<std::uint8_t>(random());
+  }
+  return bytes;
+}
+
+TEST(RandomSpecs, LoadAndGiveTheSameBitsOnEveryTarget) {
+  int n_sampled = 0;
+  for (std::uint32_t seed = 0; seed < 1500; ++seed) {
+    SCOPED_TRACE(seed);
+    n_sampled += replay_graph(random_bytes(seed)) ? 1 : 0;
+  }
+  EXPECT_GT(n_sampled, 1400);
+}
+
+TEST(RandomSpecs, UseEveryTypeThatTheLoaderKnows) {
+  std::ifstream file(std::string(MC_SOURCE_DIR) + "/src/source/spec/nodes.cpp");
+  const std::string loader{std::istreambuf_iterator<char>(file), {}};
+  std::set<std::string> known;
+  const std::string mark = ", NodeType::";
+  for (std::size_t at = loader.find(mark); at != std::string::npos;
+       at = loader.find(mark, at + 1)) {
+    const std::size_t quote = loader.rfind('"', at - 2);
+    if (loader[at - 1] == '"') {
+      known.insert(loader.substr(quote + 1, at - quote - 2));
+    }
+  }
+  std::set<std::string> used;
+  for (const NodeGrammar& grammar : kNodeGrammar) {
+    used.insert(std::string(grammar.type));
+  }
+  EXPECT_GT(known.size(), 50U);
+  EXPECT_EQ(used, known);
+}
+
+}  // namespace
+}  // namespace mc::tests

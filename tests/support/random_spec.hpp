@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+// Valid mc-volume documents from bytes, by a grammar of all node types: whatever the bytes, the
+// loader must take the document, unless it expands past the limit of operations.
+
+namespace mc::tests {
+
+/// A node type and its keys, `key=code`, with `?` after the code where the key may be left out.
+/// Codes: n node, N list of nodes, r number, p above 0, u 0 or more, f from 0 to 1, v three
+/// numbers, V three above 0, s seed, d dims, D dims but xyz, o octaves, l lacunarity, g gain, c
+/// copies, t three angles, E two rising numbers, R two unequal ones, L a rising list, P rising
+/// points, M a matrix with an inverse, C two radii, h a small one, w below 0, W 0 or more; or the
+/// choices themselves: a|b.
+struct NodeGrammar {
+  std::string_view type;
+  std::string_view keys;
+};
+
+inline constexpr NodeGrammar kNodeGrammar[] = {
+    {"constant", "value=r"},
+    {"x", ""},
+    {"y", ""},
+    {"z", ""},
+    {"add", "inputs=N"},
+    {"add", "a=n b=n"},
+    {"mul", "inputs=N"},
+    {"min", "inputs=N"},
+    {"max", "a=n b=n"},
+    {"sub", "a=n b=n"},
+    {"div", "a=n b=n"},
+    {"mod", "a=n b=n"},
+    {"pow", "a=n b=n"},
+    {"abs", "source=n"},
+    {"neg", "source=n"},
+    {"sqrt", "source=n"},
+    {"floor", "source=n"},
+    {"fract", "source=n"},
+    {"sin", "source=n"},
+    {"clamp", "source=n min=w max=W"},
+    {"remap", "source=n from=R to=R"},
+    {"smoothstep", "source=n edges=E"},
+    {"mix", "a=n b=n t=n"},
+    {"select", "a=n b=n control=n threshold=r? blend=u?"},
+    {"curve", "source=n points=P interpolation=linear|smooth|steps?"},
+    {"terrace", "source=n step=p offset=r? ramp=f?"},
+    {"terrace", "source=n levels=L ramp=f?"},
+    {"floor-hard", "source=n height=r? weight=u"},
+    {"perlin", "frequency=p? seed=s? dims=d?"},
+    {"simplex", "frequency=p? seed=s? dims=d?"},
+    {"unity-perlin2d", "frequency=p? dims=D?"},
+    {"unity-perlin2d", "x=n y=n"},
+    {"fbm", "source=n octaves=o? lacunarity=l? gain=g? weighted=f? dims=d?"},
+    {"warp", "source=n warp=n amplitude=r?"},
+    {"translate", "source=n by=v"},
+    {"rotate", "source=n degrees=r axis=x|y|z? center=v?"},
+    {"rotate", "source=n degrees=t"},
+    {"scale", "source=n factor=V center=v? values=keep|scale?"},
+    {"affine", "source=n matrix=M"},
+    {"mirror", "source=n axis=x|y|z at=r? keep=above|below?"},
+    {"repeat", "source=n period=p copies=c?"},
+    {"sphere", "radius=p center=v?"},
+    {"box", "size=V center=v?"},
+    {"plane", "normal=V? offset=r?"},
+    {"torus", "radius=p tube=p center=v? axis=x|y|z?"},
+    {"roundbox", "size=V radius=h center=v?"},
+    {"capsule", "from=v to=v radius=p"},
+    {"cylinder", "radius=p height=p center=v? axis=x|y|z?"},
+    {"cone", "radius=C height=p center=v? axis=x|y|z?"},
+    {"ellipsoid", "radii=V center=v?"},
+    {"gyroid", "period=p thickness=p? center=v?"},
+    {"union", "inputs=N smooth=u?"},
+    {"intersection", "a=n b=n smooth=u?"},
+    {"difference", "a=n b=n smooth=u?"},
+    {"complement", "source=n"},
+    {"offset", "source=n distance=r"},
+    {"shell", "source=n thickness=p side=inside|both|outside?"},
+};
+
+class RandomSpec {
+ public:
+  explicit RandomSpec(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  /// The document; a grid of 9 x 6 x 5 samples around the origin.
+  std::string text() {
+    std::string out = R"({"format": "mc-volume", "version": 1, "seed": )" + whole(5) +
+                      R"(, "convention": )" + (below(2) == 0 ? R"("density")" : R"("sdf")") +
+                      R"(, "iso": )" + in_16ths(-8, 8) +
+                      R"(, "grid": {"samples": [9, 6, 5], "spacing": [0.5, 0.75, 0.875], )" +
+                      R"("origin": [-2, -1.875, -1.75]}, "nodes": {"$": 0)";
+    const std::uint32_t n_named = below(6);
+    for (std::uint32_t n = 0; n < n_named; ++n) {
+      const std::string name = "n" + std::to_string(n);
+      out += ", \"" + name + "\": " + object(0);
+      names_.push_back(name);
+    }
+    return out + "}, \"field\": " + object(0) + "}";
+  }
+
+ private:
+  static constexpr int kDeepest = 3;
+
+  /// 0 when the bytes have run out, so that every document ends.
+  std::uint32_t below(std::uint32_t n) {
+    const std::uint32_t byte = at_ < bytes_.size() ? bytes_[at_++] : 0;
+    return byte % n;
+  }
+  std::string whole(std::uint32_t n) { return std::to_string(below(n)); }
+  /// A multiple of 1/16 from lo to hi sixteenths.
+  std::string in_16ths(int lo, int hi) {
+    return std::to_string((lo + static_cast<int>(below(static_cast<std::uint32_t>(hi - lo + 1)))) /
+                          16.0);
+  }
+  std::string real() { return in_16ths(-48, 48); }
+  std::string positive() { return in_16ths(1, 48); }
+
+  template <class F>
+  std::string list(std::size_t n, F item) {
+    std::string out;
+    for (std::size_t i = 0; i < n; ++i) out += (i == 0 ? "" : ", ") + item(i);
+    return "[" + out + "]";
+  }
+  /// Numbers that rise by 1/16 to 2 a step.
+  std::vector<std::string> rising(std::size_t n) {
+    std::vector<std::string> out;
+    int at = static_cast<int>(below(64)) - 48;
+    for (std::size_t i = 0; i < n; ++i) {
+      out.push_back(std::to_string(at / 16.0));
+      at += 1 + static_cast<int>(below(32));
+    }
+    return out;
+  }
+
+  std::string node(int depth) {
+    const std::uint32_t kind = below(8);
+    if (kind == 0 || depth >= kDeepest) return std::array{R"("x")", R"("y")", R"("z")"}[below(3)];
+    if (kind == 1) return real();
+    if (kind <= 3 && !names_.empty()) {
+      return "\"" + names_[below(static_cast<std::uint32_t>(names_.size()))] + "\"";
+    }
+    return object(depth);
+  }
+
+  std::string object(int depth) {
+    const NodeGrammar& grammar = kNodeGrammar[below(std::size(kNodeGrammar))];
+    std::string out = R"({"type": ")" + std::string(grammar.type) + "\"";
+    std::string_view rest = grammar.keys;
+    while (!rest.empty()) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      std::string_view word = rest.substr(0, end);
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      const bool optional = word.ends_with('?');
+      word.remove_suffix(optional ? 1 : 0);
+      if (!optional || below(2) == 0) {
+        const std::size_t equals = word.find('=');
+        out += ", \"" + std::string(word.substr(0, equals)) +
+               "\": " + value(word.substr(equals + 1), depth + 1);
+      }
+    }
+    return out + "}";
+  }
+
+  std::string value(std::string_view code, int depth) {
+    if (code.find('|') != std::string_view::npos) return choice(code);
+    switch (code.front()) {
+      case 'n':
+        return node(depth);
+      case 'N':
+        return list(1 + below(3), [&](std::size_t) { return node(depth); });
+      case 'p':
+        return positive();
+      case 'u':
+        return in_16ths(0, 32);
+      case 'f':
+        return in_16ths(0, 16);
+      case 'h':
+        return "0.015625";
+      case 'w':
+        return in_16ths(-32, -1);
+      case 'W':
+        return in_16ths(0, 32);
+      case 's':
+        return whole(4);
+      case 'd':
+        return choice("xyz|xy|xz|yz");
+      case 'D':
+        return choice("xy|xz|yz");
+      case 'o':
+        return std::to_string(1 + below(4));
+      case 'l':
+        return in_16ths(16, 48);
+      case 'g':
+        return in_16ths(0, 24);
+      case 'c':
+        return list(3, [&](std::size_t) { return whole(4); });
+      case 'E':
+      case 'R':
+      case 'L':
+        return levels(code.front() == 'L' ? 2 + below(4) : 2, code.front() == 'R');
+      case 'P':
+        return points();
+      case 'M':
+        return matrix();
+      case 'C':
+        return "[" + positive() + ", " + in_16ths(0, 32) + "]";
+      case 'v':
+      case 't':
+        return list(3, [&](std::size_t) { return real(); });
+      case 'V':
+        return list(3, [&](std::size_t) { return positive(); });
+      default:
+        return real();
+    }
+  }
+
+  std::string choice(std::string_view words) {
+    std::vector<std::string_view> all;
+    while (!words.empty()) {
+      const std::size_t end = std::min(words.find('|'), words.size());
+      all.push_back(words.substr(0, end));
+      words.remove_prefix(std::min(end + 1, words.size()));
+    }
+    return "\"" + std::string(all[below(static_cast<std::uint32_t>(all.size()))]) + "\"";
+  }
+
+  std::string levels(std::size_t n, bool may_fall) {
+    std::vector<std::string> numbers = rising(n);
+    if (may_fall && below(2) == 1) std::swap(numbers.front(), numbers.back());
+    return list(n, [&](std::size_t i) { return numbers[i]; });
+  }
+
+  std::string points() {
+    const std::vector<std::string> x = rising(2 + below(4));
+    return list(x.size(), [&](std::size_t i) { return "[" + x[i] + ", " + real() + "]"; });
+  }
+
+  /// The diagonal outweighs the rest of its row, so that there is an inverse.
+  std::string matrix() {
+    return list(12, [&](std::size_t i) {
+      return i % 4 == 3 ? real() : i % 5 == 0 ? in_16ths(17, 48) : in_16ths(-8, 8);
+    });
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+  std::vector<std::string> names_;
+};
+
+}  // namespace mc::tests
