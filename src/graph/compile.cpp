@@ -11,11 +11,12 @@
 
 #include "graph/hash.hpp"
 #include "graph/lower.hpp"
+#include "graph/reduce.hpp"
 #include "graph/schedule.hpp"
 
 // From a graph to straight-line code. A node is emitted once for each domain (coordinates, seed
 // salt, dims) it is asked for in: fbm and warp ask for their source in domains of their own, all
-// other nodes pass theirs on.
+// other nodes pass theirs on. Equal instructions are made once, and those of constants not at all.
 
 namespace mc::graph {
 
@@ -45,19 +46,24 @@ class Emitter {
   std::vector<Instruction> take() { return std::move(code_); }
 
  private:
+  /// The value of an instruction: a new one, or that of an equal instruction before it.
   Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
              std::uint32_t seed = 0) {
-    if (code_.size() >= Graph::kMaxInstructions) {
-      refuse();
-    }
     Instruction instruction{.op = op,
                             .out = static_cast<Value>(code_.size()),
                             .n_in = static_cast<std::uint8_t>(inputs.size()),
                             .seed = seed,
                             .p = p};
     std::copy(inputs.begin(), inputs.end(), instruction.in.begin());
-    code_.push_back(instruction);
-    return instruction.out;
+    instruction = reduced(instruction, code_);
+    if (code_.size() >= Graph::kMaxInstructions) {
+      refuse();
+    }
+    const auto [known, is_new] = values_.try_emplace(recipe_of(instruction), instruction.out);
+    if (is_new) {
+      code_.push_back(instruction);
+    }
+    return known->second;
   }
 
   [[noreturn]] static void refuse() {
@@ -117,6 +123,7 @@ class Emitter {
   const Graph& graph_;
   std::vector<Instruction> code_;
   std::map<std::pair<NodeId, Domain>, Value> done_;
+  std::map<Recipe, Value> values_;
   Domain world_;
 };
 
