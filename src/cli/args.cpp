@@ -110,9 +110,16 @@ std::vector<Option> options_of(ExtractArgs& a) {
 
 std::vector<Option> options_of(SampleArgs& a) {
   std::vector<Option> all{
-      {"-o,--output", "FILE", ".vdb, .nrrd or .raw; - is stdout, with --to", true, &a.output},
-      {"--to", "TYPE", "vdb, nrrd or raw (default: by the output's extension)", true, &a.to},
+      {"-o,--output", "FILE", ".vdb, .nrrd or .raw, slices.####.exr; with --slice .png or .exr",
+       true, &a.output},
+      {"--to", "TYPE", "vdb, nrrd, raw, exr or png (default: by the output's extension)", true,
+       &a.to},
       {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", true, &a.region},
+      {"--slice", "AXIS=V", "a picture of one plane: x, y or z=POSITION, or i, j or k=INDEX", true,
+       &a.slice},
+      {"--range", "LO,HI", "PNG: values of black and white (default: the slice's own)", false,
+       &a.range},
+      {"--bits", "N", "PNG: 8 or 16 (default)", false, &a.bits},
   };
   append(all, source_options(a.source));
   append(all, {{"--force", "", "replace an existing output; write binary to a terminal", true,

@@ -46,7 +46,7 @@ struct ExtractArgs {
 struct SampleArgs {
   SourceArgs source;
   CommonArgs common;
-  Text output, to, region, memory;
+  Text output, to, region, slice, range, bits, memory;
   bool force = false;
 };
 

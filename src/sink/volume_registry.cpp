@@ -14,7 +14,7 @@ std::unique_ptr<VolumeSink> open_volume_sink(const std::string& path, const Sink
   const std::string format = output_format(path, options);
   if (is_mesh_format(format)) {
     throw Error(ErrorKind::usage, path, format + " holds meshes, but this is a volume",
-                "write vdb, nrrd or raw");
+                "write vdb, nrrd, raw or exr");
   }
   if (format == "vdb") return sink::open_vdb(path, options);
   if (format == "nrrd") return sink::open_nrrd(path, options);
