@@ -14,10 +14,13 @@ void append(std::vector<Option>& to, std::vector<Option> more) {
 
 std::vector<Option> source_options(SourceArgs& a) {
   return {
-      {"--from", "TYPE", "what the input is: vdb, raw, nrrd or spec (default: its content decides)",
-       false, &a.from},
+      {"--from", "TYPE",
+       "what the input is: vdb, raw, nrrd, spec, exr or png (default: its content)", false,
+       &a.from},
       {"--grid", "NAME", "VDB grid: NAME, NAME[n] or #n (default: the first that is scalar)", true,
        &a.grid},
+      {"--channel", "NAME", "pictures: channel to read (default: Y, else R, else the first)", false,
+       &a.channel},
       {"--dims", "X,Y[,Z]", "raw data: samples along each axis; without Z the slices are counted",
        true, &a.dims},
       {"--type", "TYPE", "raw data: u8, i8, u16, i16, u32, i32, f16, f32 or f64", true, &a.type},
