@@ -11,6 +11,7 @@ mc_build_packages=(
   g++:g++ cmake:cmake ninja-build:ninja ccache:ccache
   libopenvdb-dev libboost-iostreams-dev zlib1g-dev # the last two: OpenVDB's find module wants them
   libblosc-dev libdeflate-dev # what packs VDB files
+  libopenexr-dev libpng-dev
   libtbb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libfmt-dev libhwy-dev
   libgtest-dev # the presets configure the tests as well
 )

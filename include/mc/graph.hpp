@@ -76,6 +76,19 @@ enum class NodeType : std::uint8_t {
   complement,      ///< source; -
   offset,          ///< source; distance
   shell,           ///< source; thickness, its middle's depth below the surface
+  heightmap,       ///< -; first corner (2), sizes (2), height. Also raster, wrap, filter, dims
+};
+
+/// How a picture goes on beyond its edge: its last pixels, the picture again, or its mirror image.
+enum class Wrap : std::uint8_t { clamp, repeat, mirror };
+/// What lies between samples: the nearest one, a straight line, or a Catmull-Rom spline.
+enum class Filter : std::uint8_t { nearest, linear, cubic };
+
+/// Samples that nodes read: a picture's, the top row first.
+struct Raster {
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::vector<float> samples;
 };
 
 /// How a curve runs from point to point: straight; by a monotone cubic; held until the next point.
@@ -96,7 +109,10 @@ struct Node {
   std::uint32_t octaves = 1;  ///< fbm: 1 to 32
   std::uint8_t axis = 1;      ///< 0, 1, 2: what a torus, cylinder or cone turns around
   CurveShape curve_shape = CurveShape::linear;
-  std::optional<Dims> dims{};  ///< unset: of the fbm above it, else xyz (unity-perlin2d: xz)
+  std::optional<Dims> dims{};              ///< unset: of the fbm above it, else xyz (flat ones: xz)
+  std::shared_ptr<const Raster> raster{};  ///< heightmap: needed
+  Wrap wrap = Wrap::clamp;
+  Filter filter = Filter::linear;
 };
 
 struct GraphSettings {

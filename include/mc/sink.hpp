@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,8 +20,8 @@
 namespace mc {
 
 struct SinkOptions {
-  std::string
-      to;  ///< "ply", "obj", "stl", "glb", "gltf"; "vdb", "nrrd", "raw"; empty: by extension
+  std::string to;      ///< "ply", "obj", "stl", "glb", "gltf"; "vdb", "nrrd", "raw", "exr", "png";
+                       ///< empty: by extension
   bool force = false;  ///< replace an existing file; write binary to a terminal
   bool ascii = false;  ///< PLY, STL: text form
   std::optional<Precision>
@@ -46,6 +48,29 @@ bool holds_several_objects(std::string_view format);
 /// read-only folder, terminal; usage: options.
 std::unique_ptr<MeshSink> open_mesh_sink(const std::string& path, const SinkOptions& options);
 std::unique_ptr<VolumeSink> open_volume_sink(const std::string& path, const SinkOptions& options);
+
+/// A plane of samples as a picture: the top row first, rows adjacent, native byte order.
+struct Picture {
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  SampleType type = SampleType::f32;
+  Buffer<std::byte> samples{};
+};
+
+/// The port by which pictures leave.
+class PictureSink {
+ public:
+  virtual ~PictureSink() = default;
+  /// Writes the picture and puts it under its name; `texts` go into its header after the
+  /// provenance. Errors   usage: a type that PNG does not hold; limit: one that OpenEXR has no room
+  /// for; output.
+  virtual void write(const Picture& picture,
+                     const std::vector<std::pair<std::string, std::string>>& texts) = 0;
+};
+
+/// Opens a picture of one channel: PNG (u8, u16) or OpenEXR (all but i32, i64 and f64; no sample is
+/// rounded). "-" is stdout. Errors   as open_mesh_sink().
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, const SinkOptions& options);
 
 /// Unlinks every partial file of this process. Async-signal-safe enough for a signal thread: takes
 /// no lock that a blocked writer holds.

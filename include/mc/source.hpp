@@ -19,15 +19,16 @@ namespace mc {
 
 /// What the user says of the input; everything unset is read from the file.
 struct SourceOptions {
-  std::string from;                 ///< "vdb", "raw", "nrrd", "spec"; empty: decide
+  std::string from;                 ///< "vdb", "raw", "nrrd", "spec", "exr", "png"; empty: decide
   std::optional<std::string> grid;  ///< VDB: NAME, NAME[n] or #n
   std::vector<std::int64_t>
       dims;  ///< raw: two or three, each > 0; with two, the slices are counted
   std::optional<SampleType> type;  ///< raw
   std::endian endian = std::endian::little;
-  std::uint64_t skip_bytes = 0;  ///< raw: header of each file
-  std::optional<Vec3> spacing;   ///< world units; overrides the file's
-  std::optional<Vec3> origin;    ///< world position of sample 0,0,0; overrides the file's
+  std::uint64_t skip_bytes = 0;          ///< raw: header of each file
+  std::optional<Vec3> spacing;           ///< world units; overrides the file's
+  std::optional<Vec3> origin;            ///< world position of sample 0,0,0; overrides the file's
+  std::optional<std::string> channel{};  ///< pictures; empty: Y, else R, else the first
 };
 
 struct Source {
@@ -37,7 +38,7 @@ struct Source {
 };
 
 /// Opens a volume. `inputs`: one file, "-" for stdin, a folder, a glob that the shell left alone,
-/// or several raw slices (natural order is made here).
+/// or several slices, raw or pictures (natural order is made here).
 /// Errors   input: missing, empty, damaged, of the wrong size, nothing to mesh; usage: options that
 ///          contradict each other or the kind of file, an invalid spec.
 Source open_source(std::span<const std::string> inputs, const SourceOptions& options,

@@ -13,6 +13,15 @@ find_package(CLI11 CONFIG REQUIRED)
 find_package(TinyGLTF CONFIG QUIET)
 option(MC_GLTF "glTF and GLB through tinygltf" ${TinyGLTF_FOUND})
 
+# Pictures: the light C library of OpenEXR, which is found here before OpenVDB's find module looks.
+find_package(OpenEXR 3 CONFIG QUIET)
+if(TARGET OpenEXR::OpenEXRCore)
+  set(MC_EXR_FOUND ON)
+endif()
+option(MC_EXR "OpenEXR pictures" ${MC_EXR_FOUND})
+find_package(PNG QUIET)
+option(MC_PNG "PNG pictures" ${PNG_FOUND})
+
 # Debian ships OpenVDB's find module outside CMake's own path; it is searched last, since its
 # neighbours FindTBB and FindOpenEXR would shadow the good ones.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
@@ -24,10 +33,16 @@ if(OpenVDB_FOUND AND MC_BLOSC AND MC_DEFLATE)
 endif()
 option(MC_VDB "OpenVDB volumes" ${MC_VDB_FOUND})
 
-# Links what the formats need to `target` and defines MC_WITH_* for those that are built in.
-function(mc_link_formats target)
+# Defines MC_WITH_* for the formats that are built in.
+function(mc_define_formats target)
   target_compile_definitions(${target} PUBLIC
-    MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>)
+    MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>
+    MC_WITH_EXR=$<BOOL:${MC_EXR}> MC_WITH_PNG=$<BOOL:${MC_PNG}>)
+endfunction()
+
+# Links what the formats need to `target`.
+function(mc_link_formats target)
+  mc_define_formats(${target})
   if(MC_VDB)
     target_link_libraries(${target} PRIVATE blosc deflate)
   endif()

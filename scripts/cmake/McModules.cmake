@@ -4,15 +4,18 @@
 
 set(MC_MODULE_DIR ${CMAKE_INSTALL_LIBDIR}/mc)
 
-# The sources in `folder` as part of mc_io, or as a module of the same version. Defines `macro` as
-# its file name.
-function(mc_module name folder macro library)
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${folder}/module/*.cpp)
+#   mc_module(NAME MACRO FOLDERS folder... LIBRARIES library...)
+# The sources in module/ of the folders as part of mc_io, or as a module of the same version. Defines
+# MACRO as its file name.
+function(mc_module name macro)
+  cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "FOLDERS;LIBRARIES")
+  list(TRANSFORM arg_FOLDERS REPLACE "(.+)" "${CMAKE_SOURCE_DIR}/src/\\1/module/*.cpp")
+  file(GLOB sources CONFIGURE_DEPENDS ${arg_FOLDERS})
   # Such libraries' templates take minutes at -O3; writing waits for compression and disk anyway.
   set_source_files_properties(${sources} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O1>)
   if(NOT MC_MODULES)
     target_sources(mc_io PRIVATE ${sources})
-    target_link_libraries(mc_io PRIVATE ${library})
+    target_link_libraries(mc_io PRIVATE ${arg_LIBRARIES})
     return()
   endif()
   add_library(${name} MODULE ${sources})
@@ -20,7 +23,8 @@ function(mc_module name folder macro library)
   # Not with hidden symbols: OpenVDB's templates must share their statics with its library.
   set_target_properties(${name} PROPERTIES PREFIX "" OUTPUT_NAME ${name}-${PROJECT_VERSION})
   target_include_directories(${name} PRIVATE ${CMAKE_SOURCE_DIR}/src)
-  target_link_libraries(${name} PRIVATE mc_core fmt::fmt ${library})
+  target_link_libraries(${name} PRIVATE mc_core fmt::fmt ${arg_LIBRARIES})
+  mc_define_formats(${name})
   target_link_options(${name} PRIVATE LINKER:--exclude-libs,ALL LINKER:--no-undefined)
   target_compile_definitions(mc_io PRIVATE ${macro}="${name}-${PROJECT_VERSION}.so")
   # The program, which is installed as it is built, says where in its own way.
@@ -32,9 +36,11 @@ endfunction()
 
 # `program` is built with all modules.
 function(mc_loads_modules program)
-  if(TARGET mc-vdb)
-    add_dependencies(${program} mc-vdb)
-  endif()
+  foreach(module mc-vdb mc-image)
+    if(TARGET ${module})
+      add_dependencies(${program} ${module})
+    endif()
+  endforeach()
 endfunction()
 
 # `program` finds modules where they are built and, wherever the whole is moved, where they are

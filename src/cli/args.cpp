@@ -14,10 +14,13 @@ void append(std::vector<Option>& to, std::vector<Option> more) {
 
 std::vector<Option> source_options(SourceArgs& a) {
   return {
-      {"--from", "TYPE", "what the input is: vdb, raw, nrrd or spec (default: its content decides)",
-       false, &a.from},
+      {"--from", "TYPE",
+       "what the input is: vdb, raw, nrrd, spec, exr or png (default: its content)", false,
+       &a.from},
       {"--grid", "NAME", "VDB grid: NAME, NAME[n] or #n (default: the first that is scalar)", true,
        &a.grid},
+      {"--channel", "NAME", "pictures: channel to read (default: Y, else R, else the first)", false,
+       &a.channel},
       {"--dims", "X,Y[,Z]", "raw data: samples along each axis; without Z the slices are counted",
        true, &a.dims},
       {"--type", "TYPE", "raw data: u8, i8, u16, i16, u32, i32, f16, f32 or f64", true, &a.type},
@@ -110,9 +113,16 @@ std::vector<Option> options_of(ExtractArgs& a) {
 
 std::vector<Option> options_of(SampleArgs& a) {
   std::vector<Option> all{
-      {"-o,--output", "FILE", ".vdb, .nrrd or .raw; - is stdout, with --to", true, &a.output},
-      {"--to", "TYPE", "vdb, nrrd or raw (default: by the output's extension)", true, &a.to},
+      {"-o,--output", "FILE", ".vdb, .nrrd or .raw, slices.####.exr; with --slice .png or .exr",
+       true, &a.output},
+      {"--to", "TYPE", "vdb, nrrd, raw, exr or png (default: by the output's extension)", true,
+       &a.to},
       {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", true, &a.region},
+      {"--slice", "AXIS=V", "a picture of one plane: x, y or z=POSITION, or i, j or k=INDEX", true,
+       &a.slice},
+      {"--range", "LO,HI", "PNG: values of black and white (default: the slice's own)", false,
+       &a.range},
+      {"--bits", "N", "PNG: 8 or 16 (default)", false, &a.bits},
   };
   append(all, source_options(a.source));
   append(all, {{"--force", "", "replace an existing output; write binary to a terminal", true,

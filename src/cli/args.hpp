@@ -18,7 +18,7 @@ using Text = std::optional<std::string>;
 /// How a source is to be read; the same for every command that takes volumes.
 struct SourceArgs {
   std::vector<std::string> inputs;
-  Text from, grid, dims, type, endian, skip, spacing, origin;
+  Text from, grid, channel, dims, type, endian, skip, spacing, origin;
 };
 
 /// Options of every command.
@@ -46,7 +46,7 @@ struct ExtractArgs {
 struct SampleArgs {
   SourceArgs source;
   CommonArgs common;
-  Text output, to, region, memory;
+  Text output, to, region, slice, range, bits, memory;
   bool force = false;
 };
 

@@ -37,8 +37,10 @@ constexpr std::array<Page, 5> kPages{{
      "  mc extract scan.nrrd --iso otsu --border closed -o scan.stl\n"
      "  mc extract *.vdb --out-dir meshes --to ply --report -\n"},
     {"sample", "mc sample INPUT -o VOLUME", "any input to a volume file",
-     "Writes the samples of a volume, or of a mc-volume spec, as .vdb, .nrrd or .raw.\n",
+     "Writes the samples of a volume, or of a mc-volume spec, as .vdb, .nrrd, .raw or\n"
+     "OpenEXR slices; with --slice one plane of them as a picture.\n",
      "  mc sample terrain.json -o terrain.vdb\n"
+     "  mc sample terrain.json --slice z=0 -o terrain.png\n"
      "  mc sample smoke.vdb --region 0,0,0:63,63,63 -o part.nrrd\n"},
     {"info", "mc info INPUT... [--json]", "what is in a volume",
      "Lists the grids of each INPUT: type, dimensions, spacing, range, percentiles and the\n"
@@ -75,9 +77,11 @@ constexpr std::array<Topic, 2> kTopics{{
      "      \"b\": { \"type\": \"sphere\", \"center\": [52, 52, 52], \"radius\": 18 } } }\n"},
     {"formats",
      "Inputs   .vdb; .nrrd and .nhdr (raw encoding); .json of format mc-volume; raw files and\n"
-     "         slices with --dims and --type, or with a .nhdr beside them\n"
+     "         slices with --dims and --type, or with a .nhdr beside them; slices in .exr or\n"
+     "         .png, or an .exr of several parts\n"
      "Meshes   .ply .obj .stl .glb .gltf (with a .bin)\n"
-     "Volumes  .vdb .nrrd .raw (with a .nhdr)\n\n"
+     "Volumes  .vdb .nrrd .raw (with a .nhdr), slices.####.exr\n"
+     "Pictures .png .exr (mc sample --slice)\n\n"
      "An input is told by --from, then by --dims with --type, then by its content, then by its\n"
      "extension; an output by --to, then by its extension.\n"},
 }};

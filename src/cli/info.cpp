@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "base/parallel.hpp"
@@ -17,9 +19,15 @@ namespace mc::cli {
 
 namespace {
 
-/// One input: a file, or the slices of one raw volume.
+/// A picture by its name.
+bool is_picture(const std::string& input) {
+  const std::string extension = std::filesystem::path(input).extension().string();
+  return extension == ".exr" || extension == ".png";
+}
+
+/// One input: a file, or the slices of one volume.
 std::vector<std::vector<std::string>> grouped(const SourceArgs& args) {
-  if (args.type) return {args.inputs};
+  if (args.type || std::ranges::all_of(args.inputs, is_picture)) return {args.inputs};
   std::vector<std::vector<std::string>> groups;
   for (const std::string& input : args.inputs) groups.push_back({input});
   return groups;

@@ -234,6 +234,51 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
   if (args.report && args.report->empty()) refuse("--report", "the report's name is empty");
 }
 
+/// "z=0", "k=3".
+SliceChoice parse_slice(const std::string& text) {
+  static constexpr std::string_view kAxes = "ijkxyz";
+  const std::size_t axis = text.size() > 2 && text[1] == '=' ? kAxes.find(text[0]) : kAxes.npos;
+  if (axis == kAxes.npos) {
+    refuse("--slice", fmt::format("'{}': expected x, y or z=POSITION, or i, j or k=INDEX", text));
+  }
+  SliceChoice slice{.axis = static_cast<int>(axis % 3), .world = axis > 2};
+  const std::string_view at = std::string_view(text).substr(2);
+  slice.at = slice.world ? parse_number("--slice", at)
+                         : static_cast<double>(parse_integer(
+                               "--slice", at, std::numeric_limits<std::int32_t>::min(),
+                               std::numeric_limits<std::int32_t>::max()));
+  return slice;
+}
+
+/// --slice, and what goes with it only.
+std::optional<SliceChoice> resolve_slice(const SampleArgs& args, const std::string& format) {
+  const bool png = format == "png";
+  for (const auto& [name, given] :
+       {std::pair{"--range", args.range.has_value()}, {"--bits", args.bits.has_value()}}) {
+    if (given && !png) refuse(name, "is for PNG pictures");
+  }
+  if (!args.slice) {
+    if (png) refuse("--slice", "missing: a PNG picture is one slice", "add --slice z=POSITION");
+    return std::nullopt;
+  }
+  if (!png && format != "exr") {
+    refuse("--slice", fmt::format("{} holds volumes: expected png or exr", format),
+           "for a part of a volume use --region");
+  }
+  SliceChoice slice = parse_slice(*args.slice);
+  if (args.bits) {
+    static constexpr std::array<std::pair<std::string_view, int>, 2> kBits{{{"8", 8}, {"16", 16}}};
+    slice.bits = parse_choice("--bits", *args.bits, kBits);
+  }
+  if (args.range) {
+    const auto parts = split(*args.range, ',');
+    if (parts.size() != 2) refuse("--range", fmt::format("'{}': expected LO,HI", *args.range));
+    slice.range = {parse_number("--range", parts[0]), parse_number("--range", parts[1])};
+    if ((*slice.range)[0] == (*slice.range)[1]) refuse("--range", "black and white are the same");
+  }
+  return slice;
+}
+
 }  // namespace
 
 Normals parse_normals(const std::string& text) {
@@ -277,12 +322,13 @@ SamplePlan resolve(const SampleArgs& args) {
   plan.format = output_format(*args.output, plan.sink);
   if (is_mesh_format(plan.format)) {
     refuse(args.to ? "--to" : *args.output,
-           fmt::format("{} holds a mesh: expected vdb, nrrd or raw", plan.format),
+           fmt::format("{} holds a mesh: expected vdb, nrrd, raw, exr or png", plan.format),
            "use mc extract to write meshes");
   }
   plan.sink.to = plan.format;
   plan.job = {args.source.inputs, *args.output};
   if (args.region) plan.region = parse_region("--region", *args.region);
+  plan.slice = resolve_slice(args, plan.format);
   if (args.memory) plan.memory_bytes = parse_size("--memory", *args.memory);
   return plan;
 }

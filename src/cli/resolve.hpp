@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,12 +69,22 @@ struct ExtractPlan {
   CommonOptions common;
 };
 
+/// Which plane of samples becomes a picture, and which greys its values are.
+struct SliceChoice {
+  int axis = 2;        ///< 0, 1, 2
+  bool world = false;  ///< `at` is a world coordinate, else an index
+  double at = 0;
+  int bits = 16;                                 ///< PNG: 8 or 16
+  std::optional<std::array<double, 2>> range{};  ///< PNG: black and white; unset: least, greatest
+};
+
 struct SamplePlan {
   Job job;
   SourceOptions source;
   SinkOptions sink;
   std::string format;
   std::optional<IndexBox> region;
+  std::optional<SliceChoice> slice;
   std::uint64_t memory_bytes = 1ULL << 30;
   CommonOptions common;
 };

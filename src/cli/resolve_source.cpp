@@ -101,12 +101,18 @@ SampleType parse_type(const std::string& text) {
 SourceOptions resolve_source(const SourceArgs& args) {
   SourceOptions options;
   if (args.from) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 4> kFrom{
-        {{"vdb", "vdb"}, {"raw", "raw"}, {"nrrd", "nrrd"}, {"spec", "spec"}}};
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kFrom{
+        {{"vdb", "vdb"},
+         {"raw", "raw"},
+         {"nrrd", "nrrd"},
+         {"spec", "spec"},
+         {"exr", "exr"},
+         {"png", "png"}}};
     options.from = parse_choice("--from", *args.from, kFrom);
   }
   check_raw_options(args);
   options.grid = args.grid;
+  options.channel = args.channel;
   if (args.dims) options.dims = parse_dims(*args.dims);
   if (args.type) options.type = parse_type(*args.type);
   check_volume_size(options);

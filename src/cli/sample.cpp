@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -9,33 +7,17 @@
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
+#include "cli/planes_a_read.hpp"
 #include "cli/region.hpp"
 #include "cli/resolve.hpp"
-#include "cli/values.hpp"
+#include "cli/slice.hpp"
 
-// `mc sample`: any volume to a volume file, plane by plane, or whole where both ends are sparse.
+// `mc sample`: any volume to a volume file, plane by plane, or whole where both ends are sparse; or
+// one slice of it to a picture.
 
 namespace mc::cli {
 
 namespace {
-
-/// Planes a read: many enough to share among threads, few enough to stay within the budget, which
-/// the reader's copy and the sink's share.
-std::int32_t planes_a_read(const Volume& volume, std::uint64_t memory_bytes,
-                           std::string_view place) {
-  const IndexBox& box = volume.lattice.box;
-  const std::uint64_t plane_bytes = static_cast<std::uint64_t>(box.extent(0)) *
-                                    static_cast<std::uint64_t>(box.extent(1)) *
-                                    sample_size(volume.type);
-  const std::uint64_t n_planes = memory_bytes / 2 / std::max<std::uint64_t>(plane_bytes, 1);
-  if (n_planes == 0) {
-    throw Error(ErrorKind::limit, place,
-                fmt::format("two planes of samples need {}, but --memory allows {}",
-                            size_text(2 * plane_bytes), size_text(memory_bytes)),
-                "raise --memory, or choose a --region");
-  }
-  return static_cast<std::int32_t>(std::min<std::uint64_t>(n_planes, 32));
-}
 
 /// All planes in order; the sink has begun.
 void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
@@ -81,6 +63,13 @@ void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
   }
 }
 
+void write_volume(const VolumeReader& from, const SamplePlan& plan, Invocation& invocation) {
+  const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
+  std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, from);
+  sink->finish();
+  invocation.console.end_stage();
+}
+
 }  // namespace
 
 int run_sample(Invocation& invocation, std::vector<std::string> words) {
@@ -98,10 +87,11 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
   const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
   check_region(source.reader, plan.region);
-  const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
-  std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, source.reader);
-  sink->finish();
-  invocation.console.end_stage();
+  if (plan.slice) {
+    write_slice(source.reader, plan, invocation);
+  } else {
+    write_volume(source.reader, plan, invocation);
+  }
   return 0;
 }
 

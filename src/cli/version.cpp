@@ -15,11 +15,18 @@ std::string version_text(bool verbose) {
   const auto list = [](const char* plain, bool more, const char* extra) {
     return fmt::format("{}{}", plain, more ? extra : "");
   };
-  text += fmt::format("reads    {}\n", list("raw nrrd spec", MC_WITH_VDB != 0, " vdb"));
+  text += fmt::format("reads    {}\n", list("raw nrrd spec", MC_WITH_VDB != 0, " vdb") +
+                                           list("", MC_WITH_EXR != 0, " exr") +
+                                           list("", MC_WITH_PNG != 0, " png"));
   text += fmt::format("meshes   {}\n", list("ply obj stl", MC_WITH_GLTF != 0, " glb gltf"));
-  text += fmt::format("volumes  {}\n", list("nrrd raw", MC_WITH_VDB != 0, " vdb"));
+  text += fmt::format("volumes  {}\n", list("nrrd raw", MC_WITH_VDB != 0, " vdb") +
+                                           list("", MC_WITH_EXR != 0, " exr"));
+  text += fmt::format("pictures {}\n",
+                      list("", MC_WITH_EXR != 0, "exr ") + list("", MC_WITH_PNG != 0, "png"));
   if (MC_WITH_VDB == 0) text += "without  vdb (build with libopenvdb-dev)\n";
   if (MC_WITH_GLTF == 0) text += "without  glb gltf (build with libtinygltf-dev)\n";
+  if (MC_WITH_EXR == 0) text += "without  exr (build with libopenexr-dev)\n";
+  if (MC_WITH_PNG == 0) text += "without  png (build with libpng-dev)\n";
   text += fmt::format("simd     {} (of {})\n", extraction::simd_target_name(),
                       fmt::join(extraction::simd_targets(), " "));
   text += fmt::format("threads  {} ({})\n", base::thread_count(), MC_THREADS_BACK_END);

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -44,6 +46,7 @@ class Emitter {
 
   Value emit_root(NodeId root) { return emit(root, world_); }
   std::vector<Instruction> take() { return std::move(code_); }
+  std::vector<std::shared_ptr<const RasterUse>> take_rasters() { return std::move(rasters_); }
 
  private:
   /// The value of an instruction: a new one, or that of an equal instruction before it.
@@ -98,6 +101,7 @@ class Emitter {
   Value emit_solid(const Node& node, const Domain& domain);
   Value emit_shell(const Node& node, const Domain& domain);
   Value emit_combination(const Node& node, const Domain& domain);
+  Value emit_heightmap(const Node& node, const Domain& domain);
 
   Value unary(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
     return push(op, {emit(node.inputs[0], domain)}, p);
@@ -122,6 +126,8 @@ class Emitter {
 
   const Graph& graph_;
   std::vector<Instruction> code_;
+  std::vector<std::shared_ptr<const RasterUse>> rasters_;
+  std::map<const Raster*, std::array<float, 2>> ranges_;
   std::map<std::pair<NodeId, Domain>, Value> done_;
   std::map<Recipe, Value> values_;
   Domain world_;
@@ -174,6 +180,8 @@ Value Emitter::emit_new(const Node& node, const Domain& domain) {
     case NodeType::difference:
     case NodeType::complement:
       return emit_combination(node, domain);
+    case NodeType::heightmap:
+      return emit_heightmap(node, domain);
     default:
       return emit_arithmetic(node, domain);
   }
@@ -448,12 +456,44 @@ Value Emitter::emit_combination(const Node& node, const Domain& domain) {
   return push(op, {a, outside_b}, node.numbers);
 }
 
+/// Least and greatest sample; NaN where one is not finite.
+std::array<float, 2> range_of(const Raster& raster) {
+  constexpr float kNan = __builtin_nanf("");
+  std::array<float, 2> range{raster.samples.front(), raster.samples.front()};
+  for (const float v : raster.samples) {
+    if (!std::isfinite(v)) return {kNan, kNan};
+    range = {std::min(range[0], v), std::max(range[1], v)};
+  }
+  return range;
+}
+
+Value Emitter::emit_heightmap(const Node& node, const Domain& domain) {
+  Dims dims = node.dims.value_or(domain.dims.value_or(Dims::xz));
+  if (dims == Dims::xyz) {
+    dims = Dims::xz;
+  }
+  const auto& axes = kDimsAxes[static_cast<std::size_t>(dims)];
+  std::array<float, 6> p = node.numbers;
+  p[2] = static_cast<float>(node.raster->width) / p[2];
+  p[3] = static_cast<float>(node.raster->height) / p[3];
+  const Value value = push(Op::heightmap, {domain.at[axes[0]], domain.at[axes[1]]}, p);
+  const auto known = ranges_.find(node.raster.get());
+  const auto range = known != ranges_.end() ? known->second : range_of(*node.raster);
+  ranges_.emplace(node.raster.get(), range);
+  rasters_.push_back(std::make_shared<const RasterUse>(
+      RasterUse{node.raster, node.wrap, node.filter, range[0], range[1]}));
+  code_[value].raster = rasters_.back().get();
+  return value;
+}
+
 }  // namespace
 
 Program compile(const Graph& graph, NodeId root) {
   Emitter emitter(graph);
   const Value result = emitter.emit_root(root);
-  return schedule(emitter.take(), result);
+  Program program = schedule(emitter.take(), result);
+  program.rasters = emitter.take_rasters();
+  return program;
 }
 
 }  // namespace mc::graph

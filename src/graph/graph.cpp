@@ -41,6 +41,7 @@ Arity arity_of(NodeType type) {
     case NodeType::cone:
     case NodeType::ellipsoid:
     case NodeType::gyroid:
+    case NodeType::heightmap:
       return {0, 0};
     case NodeType::unity_perlin2d:
       return {0, 2};
@@ -94,6 +95,25 @@ bool is_good_list(const Node& node) {
 
 [[noreturn]] void refuse(const std::string& fault) { throw Error(ErrorKind::usage, "", fault); }
 
+/// Counts are small enough for float32 to hold every pixel's place.
+void check_raster(const Node& node) {
+  constexpr std::int32_t kMostPixels = 1 << 22;
+  if (node.raster == nullptr) {
+    refuse("a node has no samples to read");
+  }
+  const Raster& raster = *node.raster;
+  const auto counted = [](std::int32_t n) { return n >= 1 && n <= kMostPixels; };
+  if (!counted(raster.width) || !counted(raster.height) ||
+      raster.samples.size() !=
+          static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height)) {
+    refuse("a picture of " + std::to_string(raster.width) + "x" + std::to_string(raster.height) +
+           " pixels: expected 1 to " + std::to_string(kMostPixels) + " along each axis");
+  }
+  if (!(node.numbers[2] > 0) || !(node.numbers[3] > 0)) {
+    refuse("a picture's size is not above 0");
+  }
+}
+
 void check_node(const Node& node) {
   const Arity arity = arity_of(node.type);
   const std::size_t n = node.inputs.size();
@@ -115,6 +135,9 @@ void check_node(const Node& node) {
   if (!is_good_list(node)) {
     refuse("a node's list of " + std::to_string(node.list.size()) +
            " numbers is not what its type needs");
+  }
+  if (node.type == NodeType::heightmap) {
+    check_raster(node);
   }
 }
 

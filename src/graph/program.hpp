@@ -4,8 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
+
+#include "mc/graph.hpp"
 
 // A compiled graph: straight-line instructions, each of which makes one value from values before
 // it, over rows of floats. Coordinates are values too, so fractals and warps need nothing special
@@ -63,11 +66,21 @@ enum class Op : std::uint8_t {
   capsule,    // from the origin along b; p0 length, p1, p2 radii, p3, p4 slope: sine and cosine
   ellipsoid,  // p as Node::numbers
   gyroid,     // p0..p2 centre, p3 radians a unit
+  heightmap,  // coordinates a, b; p as Node::numbers, but pixels a unit for sizes; raster
   copy,       // a; of pruned programs only
 };
 
 /// A value is named by its place in Program::code.
 using Value = std::uint32_t;
+
+/// Samples, and how a node reads them. Its pointer is what an instruction holds.
+struct RasterUse {
+  std::shared_ptr<const Raster> raster;
+  Wrap wrap = Wrap::clamp;
+  Filter filter = Filter::linear;
+  float least = 0;  ///< of the samples; NaN where one is not finite
+  float greatest = 0;
+};
 
 struct Instruction {
   Op op = Op::fill;
@@ -76,6 +89,7 @@ struct Instruction {
   std::uint8_t n_in = 0;
   std::uint32_t seed = 0;
   std::array<float, 6> p{};
+  const RasterUse* raster = nullptr;  ///< one of Program::rasters; no two instructions share it
 };
 
 /// Samples are computed in pieces of this many, so that registers stay in the cache.
@@ -88,6 +102,7 @@ struct Program {
   std::vector<std::uint32_t> homes;  ///< of each value: the register that holds it
   std::uint32_t n_registers = 0;
   Value result = 0;
+  std::vector<std::shared_ptr<const RasterUse>> rasters;  ///< what instructions point to
 
   /// What is run once a column of samples, and what for each of them.
   [[nodiscard]] std::span<const Instruction> flat() const { return std::span(code).first(n_flat); }

@@ -24,6 +24,8 @@ void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
     case Op::ellipsoid:
     case Op::gyroid:
       return solid_row(instruction, a, b, c, n, out);
+    case Op::heightmap:
+      return heightmap_row(instruction, a, b, n, out);
     default:
       return arithmetic_row(instruction, a, b, c, n, out);
   }

@@ -43,4 +43,8 @@ void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t 
 void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
                   OutRow out) noexcept;
 
+/// A picture laid over the coordinates; its pixels' centres are half a pixel from its edges.
+void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
+                   OutRow out) noexcept;
+
 }  // namespace mc::graph

@@ -129,6 +129,7 @@ void FileWriter::read_flushed(std::uint64_t offset, std::span<std::byte> bytes) 
 
 void FileWriter::close() {
   flush();
+  buffer_.reset();  // a series of files has them all until the last is written
   const int fd = std::exchange(fd_, -1);
   if (fd > STDERR_FILENO && ::close(fd) != 0 && errno != EINTR) {
     cannot("write", place_);

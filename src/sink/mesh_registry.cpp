@@ -44,8 +44,10 @@ constexpr std::array kFormats{
     Format{"vdb", nullptr},
     Format{"nrrd", nullptr},
     Format{"raw", nullptr},
+    Format{"exr", nullptr},
+    Format{"png", nullptr},
 };
-constexpr std::string_view kFormatList = "ply, obj, stl, glb, gltf, vdb, nrrd or raw";
+constexpr std::string_view kFormatList = "ply, obj, stl, glb, gltf, vdb, nrrd, raw, exr or png";
 
 const Format* format_named(std::string_view name) {
   const auto* found = std::find_if(kFormats.begin(), kFormats.end(),

@@ -232,9 +232,11 @@ void OutputFile::shift(std::uint64_t offset, std::uint64_t n_bytes) {
   }
 }
 
+void OutputFile::close() { state_->writer->close(); }
+
 void OutputFile::commit() { commit_all({this}); }
 
-void OutputFile::commit_all(std::initializer_list<OutputFile*> files) {
+void OutputFile::commit_all(std::span<OutputFile* const> files) {
   for (OutputFile* file : files) {
     file->state_->writer->close();
   }

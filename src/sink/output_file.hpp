@@ -55,10 +55,16 @@ class OutputFile {
   /// overwritten. Precondition: seekable(). Cost: reads and writes all of them once.
   void shift(std::uint64_t offset, std::uint64_t n_bytes);
 
+  /// Flushes and closes; what is left to do is commit(). A series may be more files than a process
+  /// may have open.
+  void close();
   /// Flushes, closes, renames.
   void commit();
   /// Commits several files that belong together; the one that names the others comes last.
-  static void commit_all(std::initializer_list<OutputFile*> files);
+  static void commit_all(std::span<OutputFile* const> files);
+  static void commit_all(std::initializer_list<OutputFile*> files) {
+    commit_all(std::span<OutputFile* const>(files.begin(), files.size()));
+  }
 
  private:
   struct State;

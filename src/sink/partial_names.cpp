@@ -3,37 +3,33 @@
 
 #include <unistd.h>
 
-#include <array>
-#include <climits>
-#include <cstring>
 #include <mutex>
+#include <new>
+#include <set>
 
 #include "mc/sink.hpp"
 
-// A fixed table: it needs no memory when a signal arrives and outlives every static object. The
-// mutex is held while names are compared or copied, and by unlink_partials(), never while bytes are
-// written, so a writer that is blocked cannot block the signal thread.
+// A set that is never destroyed, so that it outlives every static object. The mutex is held while
+// names are looked up or changed, and by unlink_partials(), never while bytes are written: a writer
+// that is blocked cannot block the signal thread.
 
 namespace mc {
 
 namespace {
 
-/// More partial files than are ever open at once; one beyond that is only removed by its owner.
-constexpr std::size_t kMostPartials = 64;
-
 std::mutex names_mutex;
-std::array<std::array<char, PATH_MAX>, kMostPartials> names{};  // empty: free
 
-/// Replaces the entry `name` by `now`; an empty `name` finds a free entry.
-void replace_entry(const std::string& name, const std::string& now) noexcept {
-  const std::scoped_lock lock(names_mutex);
-  for (auto& entry : names) {
-    if (name == entry.data()) {
-      if (now.size() < entry.size()) {
-        std::memcpy(entry.data(), now.c_str(), now.size() + 1);
-      }
-      return;
-    }
+std::set<std::string>& names() {
+  static auto& all = *new std::set<std::string>();
+  return all;
+}
+
+/// Without memory for a name, only its owner will remove the file.
+void insert(const std::string& name) noexcept {
+  try {
+    names().insert(name);
+  } catch (const std::bad_alloc&) {
+    return;
   }
 }
 
@@ -41,22 +37,30 @@ void replace_entry(const std::string& name, const std::string& now) noexcept {
 
 namespace sink {
 
-void register_partial(const std::string& name) noexcept { replace_entry({}, name); }
-void rename_partial(const std::string& name, const std::string& now) noexcept {
-  replace_entry(name, now);
+void register_partial(const std::string& name) noexcept {
+  const std::scoped_lock lock(names_mutex);
+  insert(name);
 }
-void forget_partial(const std::string& name) noexcept { replace_entry(name, {}); }
+
+void rename_partial(const std::string& name, const std::string& now) noexcept {
+  const std::scoped_lock lock(names_mutex);
+  names().erase(name);
+  insert(now);
+}
+
+void forget_partial(const std::string& name) noexcept {
+  const std::scoped_lock lock(names_mutex);
+  names().erase(name);
+}
 
 }  // namespace sink
 
 void unlink_partials() noexcept {
   const std::scoped_lock lock(names_mutex);
-  for (auto& entry : names) {
-    if (entry.front() != '\0') {
-      ::unlink(entry.data());
-      entry.front() = '\0';
-    }
+  for (const std::string& name : names()) {
+    ::unlink(name.c_str());
   }
+  names().clear();
 }
 
 }  // namespace mc

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "mc/sink.hpp"
+#include "sink/image/series_sink.hpp"
 #include "sink/nrrd/nrrd_sink.hpp"
 #include "sink/raw/raw_sink.hpp"
 #include "sink/vdb/vdb_sink.hpp"
@@ -14,10 +15,15 @@ std::unique_ptr<VolumeSink> open_volume_sink(const std::string& path, const Sink
   const std::string format = output_format(path, options);
   if (is_mesh_format(format)) {
     throw Error(ErrorKind::usage, path, format + " holds meshes, but this is a volume",
-                "write vdb, nrrd or raw");
+                "write vdb, nrrd, raw or exr");
   }
   if (format == "vdb") return sink::open_vdb(path, options);
   if (format == "nrrd") return sink::open_nrrd(path, options);
+  if (format == "exr") return sink::open_exr_series(path, options);
+  if (format == "png") {
+    throw Error(ErrorKind::usage, path, "png holds pictures, but this is a volume",
+                "write vdb, nrrd, raw or exr");
+  }
   return sink::open_raw(path, options);
 }
 

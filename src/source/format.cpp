@@ -59,7 +59,7 @@ std::string_view display_name(Format format) {
   return kRows[static_cast<std::size_t>(format)].display;
 }
 
-bool is_readable(Format format) { return format <= Format::spec; }
+bool is_readable(Format format) { return format <= Format::exr || format == Format::png; }
 
 std::optional<Format> format_named(std::string_view name) {
   const auto* row = std::ranges::find(kRows, name, &Row::option);

@@ -7,6 +7,8 @@
 
 #include "mc/source.hpp"
 #include "source/format.hpp"
+#include "source/image/open_image.hpp"
+#include "source/image/slices.hpp"
 #include "source/input_files.hpp"
 #include "source/mapped_file.hpp"
 #include "source/nrrd/nrrd.hpp"
@@ -50,10 +52,14 @@ std::optional<Format> recognised(const MappedFile& file, const std::string& path
   return format ? format : format_of_extension(extension_of(path));
 }
 
-/// Several files without --dims and --type: no volume, but the first tells what is missing.
-[[noreturn]] void refuse_series(const InputFiles& inputs) {
+/// Several files without --dims and --type: pictures by the first of them. Else no volume, but the
+/// first tells what is missing.
+Decision decide_by_series(const InputFiles& inputs) {
   const std::string& first = inputs.paths.front();
   const std::optional<Format> format = recognised(MappedFile(first), first);
+  if (format && is_image(*format)) {
+    return {*format, std::nullopt};
+  }
   if (format && !is_readable(*format)) {
     unsupported(*format, inputs.place);
   }
@@ -96,13 +102,16 @@ Decision decide(const InputFiles& inputs, const SourceOptions& options) {
     if (!format) {
       throw Error(ErrorKind::usage, "--from",
                   fmt::format("{} is no kind of input", quoted_text(options.from)),
-                  "choose one of vdb, raw, nrrd, spec");
+                  "choose one of vdb, raw, nrrd, spec, exr, png");
     }
     if (!is_readable(*format)) {
       unsupported(*format, inputs.place);
     }
     if (format == Format::raw) {
       return {};
+    }
+    if (is_image(*format)) {
+      return {*format, std::nullopt};
     }
     if (inputs.paths.size() > 1) {
       throw Error(
@@ -115,7 +124,7 @@ Decision decide(const InputFiles& inputs, const SourceOptions& options) {
     return {};
   }
   if (inputs.from_folder || inputs.paths.size() > 1) {
-    refuse_series(inputs);
+    return decide_by_series(inputs);
   }
   return decide_by_file(inputs, options);
 }
@@ -128,6 +137,7 @@ void check_options(const InputFiles& inputs, Format format, const SourceOptions&
                   fmt::format("is for {}, but {} is {}", what, inputs.place, display_name(format)));
     }
   };
+  refuse(options.channel.has_value() && !is_image(format), "--channel", "pictures");
   refuse(options.grid.has_value() && format != Format::vdb, "--grid", "VDB files");
   if (format != Format::raw) {
     refuse(!options.dims.empty(), "--dims", "raw data");
@@ -135,6 +145,18 @@ void check_options(const InputFiles& inputs, Format format, const SourceOptions&
     refuse(options.endian != std::endian::little, "--endian", "raw data");
     refuse(options.skip_bytes != 0, "--skip", "raw data");
   }
+}
+
+/// From the bytes that told what it is, where there is one file only.
+std::unique_ptr<SlabReader> open_pictures(const InputFiles& inputs, Decision decision,
+                                          const SourceOptions& options, Progress& progress) {
+  std::vector<MappedFile> files;
+  if (decision.file) {
+    files.push_back(std::move(*decision.file));
+  } else {
+    for (const std::string& path : inputs.paths) files.emplace_back(path);
+  }
+  return open_slices(std::move(files), decision.format, options, progress);
 }
 
 Source open_decided(const InputFiles& inputs, Decision decision, const SourceOptions& options,
@@ -158,6 +180,10 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
       source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
       break;
     }
+    case Format::exr:
+    case Format::png:
+      source.reader = open_pictures(inputs, std::move(decision), options, progress);
+      break;
     default:
       source.reader = open_raw(inputs, options);
   }

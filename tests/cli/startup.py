@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-HEAVY = ("libopenvdb", "libhwy", "libOpenEXR", "libboost", "libIex")
+HEAVY = ("libopenvdb", "libhwy", "libOpenEXR", "libpng", "libboost", "libIex")
 
 
 def libraries_of(command, folder):

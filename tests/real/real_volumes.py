@@ -210,6 +210,52 @@ class RawSlices(RealVolume):
         self.assertTrue(from_file.read_bytes() == done.stdout, "the bytes differ")
 
 
+class Exr(unittest.TestCase):
+    """Rendered pictures: no volume, but every channel of them can be laid over the ground."""
+
+    FOLDER = "exr-beachball"
+
+    def picture(self, name, channel, columns):
+        return {"type": "heightmap", "path": str(VOLUMES / self.FOLDER / name), "channel": channel,
+                "size": [columns, 876], "filter": "nearest"}
+
+    def value_range(self, field):
+        """Least and greatest value over the pixels that both pictures have."""
+        spec = SCRATCH / "exr.json"
+        grid = {"samples": [877, 2, 876], "origin": [0.5, 0, 0.5]}
+        spec.write_text(json.dumps(
+            {"format": "mc-volume", "version": 1, "grid": grid, "field": field}))
+        done = mc("info", "--json", spec)
+        self.assertEqual(0, done.returncode, done.stderr.decode())
+        found = json.loads(done.stdout)["grids"][0]
+        return tuple(found["range"])
+
+    def test_one_frame_in_two_layouts_is_the_same(self):
+        for channel in "RGBA":
+            one = self.picture("singlepart.0001.exr", channel, 911)
+            several = self.picture("multipart.0001.exr", channel, 877)
+            low, high = self.value_range(one)
+            self.assertEqual(0, low)
+            self.assertGreater(high, 0.4)
+            self.assertEqual((0, 0), self.value_range({"type": "sub", "a": one, "b": several}))
+
+    def refusal(self, *inputs):
+        done = mc("extract", *inputs, "-o", SCRATCH / "exr.ply")
+        self.assertEqual(3, done.returncode)
+        return done.stderr.decode().splitlines()[-1].replace(str(VOLUMES / self.FOLDER) + "/", "")
+
+    def test_unlike_slices_are_named(self):
+        frames = [VOLUMES / self.FOLDER / f"singlepart.000{n}.exr" for n in (1, 2, 3)]
+        self.assertEqual(
+            "mc: error: singlepart.0002.exr: 912x888 f16 at 759,301, but singlepart.0001.exr is "
+            "911x876 f16 at 654,435; the slices of one volume must be alike",
+            self.refusal(*frames))
+        self.assertEqual(
+            "mc: error: multipart.0001.exr part rgba_left: 877x876 f16 at 688,435, but "
+            "multipart.0001.exr part rgba_right is 877x876 f16 at 654,435; the slices of one volume "
+            "must be alike", self.refusal(VOLUMES / self.FOLDER / "multipart.0001.exr"))
+
+
 def main():
     global MC, VOLUMES, SCRATCH
     MC = sys.argv[1]

@@ -122,6 +122,18 @@ std::size_t ObjectReader::choice(const char* key, std::optional<std::size_t> fal
   return fallback.value_or(0);
 }
 
+std::optional<std::string> ObjectReader::text(const char* key, bool may_be_absent) {
+  const JsonValue* found = may_be_absent ? optional(key) : required(key);
+  if (found == nullptr) {
+    return std::nullopt;
+  }
+  if (found->kind != JsonKind::string || found->text.empty()) {
+    document_.fault(*found, as_found(*found) + ": expected a text that is not empty");
+    return std::nullopt;
+  }
+  return found->text;
+}
+
 void ObjectReader::finish() {
   for (const JsonMember& member : value_.members) {
     const bool known = std::find(known_.begin(), known_.end(), member.key) != known_.end();

@@ -77,6 +77,9 @@ class ObjectReader {
   std::size_t choice(const char* key, std::optional<std::size_t> fallback,
                      const std::vector<std::string>& choices);
 
+  /// A text that is not empty; nullopt where it is absent or no such text.
+  std::optional<std::string> text(const char* key, bool may_be_absent);
+
   /// Faults every key that nobody asked for.
   void finish();
 

@@ -132,7 +132,8 @@ SpecDocument load_spec(const std::string& place, std::string_view text) {
   const auto border = Border(keys.choice("border", 0, {"open", "closed", "solid"}));
   const JsonValue* grid_value = keys.required("grid");
   const Grid grid = grid_value == nullptr ? Grid{} : read_grid(document, *grid_value);
-  NodeLoader nodes(document, keys.optional("nodes"), settings);
+  SpecFiles files(place);
+  NodeLoader nodes(document, keys.optional("nodes"), settings, files);
   const JsonValue* field = keys.required("field");
   const NodeId top = field == nullptr ? NodeId{} : nodes.load(*field);
   nodes.load_unused();

@@ -67,6 +67,7 @@ const std::map<std::string, NodeType, std::less<>>& node_types() {
       {"complement", NodeType::complement},
       {"offset", NodeType::offset},
       {"shell", NodeType::shell},
+      {"heightmap", NodeType::heightmap},
       {"x", NodeType::x},
       {"y", NodeType::y},
       {"z", NodeType::z},
@@ -85,8 +86,8 @@ constexpr std::int64_t kMostSeed = 0xFFFFFFFFLL;
 }  // namespace
 
 NodeLoader::NodeLoader(const JsonDocument& document, const JsonValue* named,
-                       const GraphSettings& settings)
-    : document_(document), graph_(settings) {
+                       const GraphSettings& settings, SpecFiles& files)
+    : document_(document), files_(files), graph_(settings) {
   harmless_ = graph_.add({});
   if (named == nullptr) {
     return;
@@ -330,6 +331,8 @@ void NodeLoader::fill(Node& node, ObjectReader& keys, const std::string& name) {
     case NodeType::offset:
     case NodeType::shell:
       return fill_shell(node, keys);
+    case NodeType::heightmap:
+      return fill_heightmap(node, keys);
     default:
       take_input(node, keys, "source");
       return fill_shaping(node, keys);

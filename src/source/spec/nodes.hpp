@@ -9,6 +9,7 @@
 
 #include "mc/graph.hpp"
 #include "source/json/object_reader.hpp"
+#include "source/spec/spec_files.hpp"
 
 // From the JSON of nodes to a Graph: names, types, their keys, cycles.
 
@@ -16,8 +17,9 @@ namespace mc::source {
 
 class NodeLoader {
  public:
-  /// `named` is the document's "nodes", null where it has none.
-  NodeLoader(const JsonDocument& document, const JsonValue* named, const GraphSettings& settings);
+  /// `named` is the document's "nodes", null where it has none. `files` reads what nodes name.
+  NodeLoader(const JsonDocument& document, const JsonValue* named, const GraphSettings& settings,
+             SpecFiles& files);
 
   /// Loads a node; where it has faults, a harmless one.
   NodeId load(const JsonValue& value);
@@ -49,6 +51,7 @@ class NodeLoader {
   void fill_points(Node& node, ObjectReader& keys);
   void fill_steps(Node& node, ObjectReader& keys);
   void fill_transform(Node& node, ObjectReader& keys, const std::string& name);
+  void fill_heightmap(Node& node, ObjectReader& keys);
   void fill_repeat(Node& node, ObjectReader& keys);
   void take_input(Node& node, ObjectReader& keys, const char* key);
   void take_inputs(Node& node, ObjectReader& keys);
@@ -57,6 +60,7 @@ class NodeLoader {
   NodeId break_limit(const JsonValue& at, const std::string& message);
 
   const JsonDocument& document_;
+  SpecFiles& files_;
   Graph graph_;
   NodeId harmless_{};
   std::map<std::string, Named, std::less<>> named_;

@@ -18,7 +18,7 @@ TEST(MeshRegistry, FormatIsNamedOrTheExtension) {
 }
 
 TEST(MeshRegistry, UnknownFormatsListTheKnown) {
-  const std::string list = "expected ply, obj, stl, glb, gltf, vdb, nrrd or raw";
+  const std::string list = "expected ply, obj, stl, glb, gltf, vdb, nrrd, raw, exr or png";
   const auto fault = [](const std::string& path, const SinkOptions& options) {
     return error_text([&] { output_format(path, options); }, ErrorKind::usage);
   };

@@ -170,7 +170,7 @@ TEST(VolumeSinks, LeaveNothingWhenNotFinished) {
 TEST(VolumeSinks, RefuseWhatTheyCannotWrite) {
   const VolumeFolder folder;
   EXPECT_EQ(message_of(ErrorKind::usage, [] { open_volume_sink("a.ply", {}); }),
-            "a.ply: ply holds meshes, but this is a volume; write vdb, nrrd or raw");
+            "a.ply: ply holds meshes, but this is a volume; write vdb, nrrd, raw or exr");
   SinkOptions raw;
   raw.to = "raw";
   EXPECT_EQ(message_of(ErrorKind::usage, [&] { open_volume_sink("a.nhdr", raw); }),

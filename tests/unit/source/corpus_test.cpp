@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "support/fuzz_images.hpp"
 #include "support/fuzz_volumes.hpp"
 #include "support/source_files.hpp"
 
@@ -11,18 +12,23 @@
 namespace mc {
 namespace {
 
-/// Reads data/corpus/KIND and returns the names of the files that were readable.
-std::vector<std::string> readable(const std::string& kind) {
+/// The names of the files of data/corpus/KIND that `read` finds readable.
+template <class F>
+std::vector<std::string> readable(const std::string& kind, F&& read) {
   std::vector<std::string> names;
   for (const auto& entry :
        std::filesystem::directory_iterator(MC_SOURCE_DIR "/data/corpus/" + kind)) {
     const std::string bytes = test::read_bytes(entry.path().string());
-    if (test::open_and_read(kind, std::as_bytes(std::span(bytes)))) {
+    if (read(std::as_bytes(std::span(bytes)))) {
       names.push_back(entry.path().filename().string());
     }
   }
   std::ranges::sort(names);
   return names;
+}
+
+std::vector<std::string> readable(const std::string& kind) {
+  return readable(kind, [&](auto bytes) { return test::open_and_read(kind, bytes); });
 }
 
 TEST(Corpus, Nrrd) {
@@ -39,6 +45,22 @@ TEST(Corpus, Vdb) {
 #endif
 
 TEST(Corpus, Raw) { EXPECT_EQ(readable("raw"), std::vector<std::string>{"u8_2x3.raw"}); }
+
+#if MC_WITH_EXR
+TEST(Corpus, Exr) {
+  EXPECT_EQ(
+      readable("exr", [](auto bytes) { return test::open_and_decode(source::Format::exr, bytes); }),
+      (std::vector<std::string>{"parts_uint.exr", "scan_half_zip.exr", "tiles_float.exr"}));
+}
+#endif
+
+#if MC_WITH_PNG
+TEST(Corpus, Png) {
+  EXPECT_EQ(
+      readable("png", [](auto bytes) { return test::open_and_decode(source::Format::png, bytes); }),
+      (std::vector<std::string>{"grey16.png", "interlaced.png", "palette2.png", "rgba8.png"}));
+}
+#endif
 
 }  // namespace
 }  // namespace mc

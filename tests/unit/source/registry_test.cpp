@@ -56,7 +56,7 @@ TEST(Registry, FromNamesTheKind) {
                 ": DICOM is not supported by this version; convert it to VDB, NRRD or raw first");
   options.from = "vdbb";
   EXPECT_EQ(error_of_open({file}, options),
-            "2 --from: \"vdbb\" is no kind of input; choose one of vdb, raw, nrrd, spec");
+            "2 --from: \"vdbb\" is no kind of input; choose one of vdb, raw, nrrd, spec, exr, png");
   options.from = "nrrd";
   EXPECT_EQ(
       error_of_open({file}, options),
