@@ -52,11 +52,19 @@ enum class NodeType : std::uint8_t {
   curve,           ///< source; -. list: x, y of each point. Also curve_shape
   terrace,         ///< source; step, offset, ramp. list: instead of step and offset the levels
   floor_hard,      ///< source; height, weight
+  white,           ///< -; frequency. Also seed, dims
+  value,           ///< -; frequency. Also seed, dims
+  value_cubic,     ///< -; frequency. Also seed, dims
   perlin,          ///< -; frequency. Also seed, dims
   simplex,         ///< -; frequency. Also seed, dims
+  opensimplex2,    ///< -; frequency. Also seed, dims
+  cellular,        ///< -; frequency, jitter. Also seed, dims, cell_return, cell_metric
   unity_perlin2d,  ///< - (then dims), or its two coordinates; frequency
   fbm,             ///< source; lacunarity, gain, weighted. Also octaves, dims
-  warp,            ///< source, warp; amplitude
+  ridged,          ///< as fbm
+  billow,          ///< as fbm
+  pingpong,        ///< source; lacunarity, gain, weighted, strength. Also octaves, dims
+  warp,            ///< source, warp; amplitude, lacunarity, gain. Also warp_mode, octaves
   affine,          ///< source; factor of value - iso (0: left alone). list: as Node says
   mirror,          ///< source; place, side kept: 1 above, -1 below. Also axis
   repeat,          ///< source; periods x, y, z (0: none), copies x, y, z (0: without end)
@@ -94,6 +102,17 @@ struct Raster {
 /// How a curve runs from point to point: straight; by a monotone cubic; held until the next point.
 enum class CurveShape : std::uint8_t { linear, smooth, steps };
 
+/// What cellular noise tells of the points: the random number of the nearest; the distance to the
+/// nearest; to the second nearest; how much farther that is.
+enum class CellReturn : std::uint8_t { value, f1, f2, f2_f1 };
+
+/// How it measures: the root of the sum of squares; the sum of sizes; the largest size.
+enum class CellMetric : std::uint8_t { euclidean, manhattan, chebyshev };
+
+/// How a warp moves coordinates: by one octave; octave by octave, each at the place that the ones
+/// before have moved it to; by the sum of all octaves at the first place.
+enum class WarpMode : std::uint8_t { single, progressive, independent };
+
 /// Names a node of one Graph.
 enum class NodeId : std::uint32_t {};
 
@@ -106,13 +125,16 @@ struct Node {
   /// rising.
   std::vector<float> list{};
   std::uint32_t seed = 0;     ///< generators
-  std::uint32_t octaves = 1;  ///< fbm: 1 to 32
+  std::uint32_t octaves = 1;  ///< fractals, and warps but single ones: 1 to 32
   std::uint8_t axis = 1;      ///< 0, 1, 2: what a torus, cylinder or cone turns around
   CurveShape curve_shape = CurveShape::linear;
-  std::optional<Dims> dims{};              ///< unset: of the fbm above it, else xyz (flat ones: xz)
+  std::optional<Dims> dims{};  ///< unset: of the fractal above it, else xyz (flat ones: xz)
   std::shared_ptr<const Raster> raster{};  ///< heightmap: needed
   Wrap wrap = Wrap::clamp;
   Filter filter = Filter::linear;
+  CellReturn cell_return = CellReturn::f1;
+  CellMetric cell_metric = CellMetric::euclidean;
+  WarpMode warp_mode = WarpMode::single;
 };
 
 struct GraphSettings {

@@ -179,7 +179,9 @@ Interval negative(Interval a) { return {-a.hi, -a.lo}; }
 /// Bounds of a noise of two or three coordinates: its range, or closer about the middle of a small
 /// box. `slope` bounds its steepness: the largest sum over the corners of a cell of what each gives
 /// with its worst gradient, in the worst direction, found on a grid of 1/200 (three dimensions:
-/// 1/40) cell and rounded up by two hundredths.
+/// 1/40) cell and rounded up by two hundredths. Value noises: the root of the axes' number times
+/// the steepest blend along one; the sums of opensimplex2 were taken of lengths, whatever the
+/// direction. Distances to points: as steep as the metric, their difference twice.
 Interval noise(const Instruction& instruction, const Interval (&at)[3], float slope) {
   using Places = std::array<float, kRowStep>;  // of which the first counts
   const NoiseRange range = noise_range(instruction);
@@ -198,8 +200,18 @@ Interval noise(const Instruction& instruction, const Interval (&at)[3], float sl
   const float reach = slope * (__builtin_sqrtf(square) + farthest * 0x1p-20F) + 1e-4F;
   if (!(reach < 0.9F) || farthest > 0x1p20F) return between(range.lo, range.hi);
   Places value{};
-  gradient_row(instruction, middle[0].data(), middle[1].data(), middle[2].data(), 1, value.data());
+  any_row(instruction, middle[0].data(), middle[1].data(), middle[2].data(), 1, value.data());
   return between(std::max(range.lo, value[0] - reach), std::min(range.hi, value[0] + reach));
+}
+
+Interval cells(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto what = static_cast<CellReturn>(instruction.p[2]);
+  if (what == CellReturn::value) {
+    const NoiseRange range = noise_range(instruction);
+    return between(range.lo, range.hi);
+  }
+  const bool manhattan = static_cast<CellMetric>(instruction.p[3]) == CellMetric::manhattan;
+  return noise(instruction, at, (manhattan ? 1.75F : 1.01F) * (what == CellReturn::f2_f1 ? 2 : 1));
 }
 
 Interval sphere(const Interval (&at)[3], const Instruction& instruction) {
@@ -322,6 +334,16 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return sum(a, product(b, c));
     case Op::weigh:
       return weight(a, b, p[0], p[1]);
+    case Op::ridge: {
+      const Interval size = magnitude(a);
+      return between(1.0F - 2.0F * size.hi, 1.0F - 2.0F * size.lo);
+    }
+    case Op::billow: {
+      const Interval size = magnitude(a);
+      return between(2.0F * size.lo - 1.0F, 2.0F * size.hi - 1.0F);
+    }
+    case Op::pingpong:  // rounding of huge numbers may leave the fold
+      return size_of(a) * p[0] < 0x1p20F ? between(-1.001F, 1.001F) : kUnknown;
     case Op::offset:
       return rising(a, [&](float v) { return p[0] + v; });
     case Op::mirror:
@@ -340,6 +362,26 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return noise(instruction, in, 7.1F);
     case Op::unity2:
       return noise(instruction, in, 1.9F);
+    case Op::open_simplex2:
+      return noise(instruction, in, 9.6F);
+    case Op::open_simplex3:
+      return noise(instruction, in, 7.2F);
+    case Op::value2:
+      return noise(instruction, in, 5.32F);
+    case Op::value3:
+      return noise(instruction, in, 6.52F);
+    case Op::value_cubic2:
+      return noise(instruction, in, 3.42F);
+    case Op::value_cubic3:
+      return noise(instruction, in, 4.18F);
+    case Op::cellular2:
+    case Op::cellular3:
+      return cells(instruction, in);
+    case Op::white2:
+    case Op::white3: {
+      const NoiseRange range = noise_range(instruction);
+      return between(range.lo, range.hi);
+    }
     case Op::sphere:
       return sphere(in, instruction);
     case Op::box:

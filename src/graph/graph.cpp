@@ -29,8 +29,13 @@ Arity arity_of(NodeType type) {
     case NodeType::x:
     case NodeType::y:
     case NodeType::z:
+    case NodeType::white:
+    case NodeType::value:
+    case NodeType::value_cubic:
     case NodeType::perlin:
     case NodeType::simplex:
+    case NodeType::opensimplex2:
+    case NodeType::cellular:
     case NodeType::sphere:
     case NodeType::box:
     case NodeType::plane:

@@ -75,6 +75,19 @@ HWY_INLINE W hash_of(W mixed) {
   return (h ^ hn::ShiftRight<15>(h)) * set(0x297A2D39U);
 }
 
+/// The hash as a number in [-1, 1), of its 24 best bits.
+HWY_INLINE F signed_unit(W hash) {
+  const I bits = hn::ShiftRight<8>(hn::BitCast(Integers(), hash));
+  return hn::ConvertTo(Floats(), bits) * set(0x1p-23F);
+}
+
+/// A number within [-1/2, 1/2] from the bits of a hash below the first kSkip.
+template <int kSkip>
+HWY_INLINE F point_offset(W hash) {
+  const I bits = hn::BitCast(Integers(), hn::ShiftLeft<kSkip>(hash));
+  return hn::ConvertTo(Floats(), bits) * set(0x1p-32F);
+}
+
 /// v, or -v where the bit (its number) of h is set.
 template <int kBit>
 HWY_INLINE F flipped(F v, W h) {

@@ -47,7 +47,10 @@ enum class Op : std::uint8_t {
   scale,         // a * p0
   accumulate,    // a + b * p0
   multiply_add,  // a + b * c, rounded twice
-  weigh,         // fbm's next amplitude from amplitude a and noise b; p0 gain, p1 weighted
+  weigh,         // a fractal's next amplitude from amplitude a, octave b; p0 gain, p1 weighted
+  ridge,         // 1 - 2 |a|
+  billow,        // 2 |a| - 1
+  pingpong,      // (a + 1) * p0, folded to and fro in [-1, 1]
   offset,        // p0 + a
   mirror,        // p0 - a
   smooth_min,    // of a, b; radius p0
@@ -56,7 +59,17 @@ enum class Op : std::uint8_t {
   perlin3,
   simplex2,
   simplex3,
+  open_simplex2,
+  open_simplex3,
   unity2,
+  white2,
+  white3,
+  value2,
+  value3,
+  value_cubic2,
+  value_cubic3,
+  cellular2,  // also p1 jitter, p2 CellReturn, p3 CellMetric
+  cellular3,
   sphere,  // signed distances, positive inside; coordinates a, b, c; p as Node::numbers
   box,
   plane,

@@ -32,19 +32,30 @@ void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::si
 void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
                OutRow out) noexcept;
 
-/// Gradient noises at the coordinates times the frequency. The range is about [-1, 1]; beyond 2^30
-/// cells (simplex: 2^28) a coordinate is held; NaN gives NaN. unity2 is Unity's
-/// Mathf.PerlinNoise(x, y).
-/// Source   Perlin, "Improving noise", SIGGRAPH 2002; differs: an integer hash instead of the
+/// Gradient noises; the range is [-1, 1] but for rounding. Of all noises: coordinates times
+/// frequency are held at 2^30 cells (simplex: 2^28); NaN gives NaN. unity2 is Mathf.PerlinNoise(x,
+/// y). Source   Perlin, "Improving noise", SIGGRAPH 2002; differs: an integer hash instead of the
 ///          permutation table, in two dimensions eight gradients of its own. Perlin, "Noise
 ///          hardware", 2001; Gustavson, "Simplex noise demystified", 2005; differs: kernel
 ///          (1/2 - r^2)^4 in three dimensions too, which ends before the next simplex, so that the
-///          noise is continuous; and the hash and gradients of perlin.
+///          noise is continuous; and the hash and gradients of perlin. Spencer, "OpenSimplex2",
+///          2019; differs: the same kernel, hash and, in three dimensions, gradients.
 void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
                   OutRow out) noexcept;
 
 /// A picture laid over the coordinates; its pixels' centres are half a pixel from its edges.
 void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
                    OutRow out) noexcept;
+
+/// White noise, and values blended between lattice points; the range is [-1, 1].
+/// Source   Perlin's fade; Catmull and Rom, "A class of local interpolating splines", 1974.
+void value_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+               OutRow out) noexcept;
+
+/// Distances in cells to points, one of which lies in each cell.
+/// Source   Worley, "A cellular texture basis function", SIGGRAPH 1996; differs: one point a cell,
+///          and all cells are looked at that can hold a nearer one.
+void cellular_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
+                  OutRow out) noexcept;
 
 }  // namespace mc::graph

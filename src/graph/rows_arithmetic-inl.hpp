@@ -62,6 +62,13 @@ float weighed(float amplitude, float noise, float gain, float weight) noexcept {
   return amplitude * (gain * (1.0F + weight * (level - 1.0F)));
 }
 
+/// A triangle wave of period 2 / strength: -1 where (v + 1) * strength is even, 1 where it is odd.
+float to_and_fro(float v, float strength) noexcept {
+  const float t = (v + 1.0F) * strength;
+  const float way = t - 2.0F * exact_floor(t * 0.5F);  // 0 to 2
+  return 1.0F - 2.0F * std::abs(way - 1.0F);
+}
+
 float modulo(float a, float b) noexcept { return a - b * exact_floor(a / b); }
 
 /// A control that is NaN gives NaN.
@@ -127,6 +134,12 @@ void one_input_row(const Instruction& instruction, Row a, std::size_t n, OutRow 
       return map1(a, n, out, [&](float u) { return terraced(u, p); });
     case Op::repeat:
       return map1(a, n, out, [&](float u) { return repeated(u, p); });
+    case Op::ridge:
+      return map1(a, n, out, [](float u) { return 1.0F - 2.0F * std::abs(u); });
+    case Op::billow:
+      return map1(a, n, out, [](float u) { return 2.0F * std::abs(u) - 1.0F; });
+    case Op::pingpong:
+      return map1(a, n, out, [&](float u) { return to_and_fro(u, p[0]); });
     default:
       assert(false && "not an arithmetic instruction");
   }

@@ -31,6 +31,8 @@ namespace {
 // The largest value of the raw noise, over all positions and gradients, scales to 1.
 constexpr float kSimplex2Scale = 100.0401F;
 constexpr float kSimplex3Scale = 76.88075F;
+constexpr float kOpenSimplex2Scale = 99.41596F;
+constexpr float kOpenSimplex3Scale = 76.88075F;  // simplex3's: the lattice is the same, but turned
 
 /// (1/2 - r^2)^4, 0 outside.
 HWY_INLINE F kernel(F r2) {
@@ -38,15 +40,29 @@ HWY_INLINE F kernel(F r2) {
   return (t * t) * (t * t);
 }
 
+/// Sixteen unit gradients at odd multiples of 11.25 degrees.
+HWY_INLINE F gradient16(W hash, F x, F y) {
+  const W far = hn::ShiftLeft<3>(hash);  // from an axis
+  const F main = chosen(far, set(0.831469612F), set(0.980785280F));
+  const F side = chosen(far, set(0.555570233F), set(0.195090322F));
+  const F u = chosen(hash, y, x);
+  const F v = chosen(hash, x, y);
+  return flipped<29>(u, hash) * main + flipped<30>(v, hash) * side;
+}
+
 /// Distances that are not numbers give NaN, also where the kernel would be 0.
+template <bool kSixteen>
 HWY_INLINE F corner2(W mixed, F x, F y) {
-  return kernel(x * x + y * y) * gradient2(hash_of(mixed), x, y);
+  const W hash = hash_of(mixed);
+  return kernel(x * x + y * y) * (kSixteen ? gradient16(hash, x, y) : gradient2(hash, x, y));
 }
 
 HWY_INLINE F corner3(W mixed, F x, F y, F z) {
   return kernel((x * x + y * y) + z * z) * gradient3(hash_of(mixed), x, y, z);
 }
 
+/// With perlin2's eight gradients, or with sixteen; not scaled.
+template <bool kSixteen>
 HWY_INLINE F simplex2(F px, F py, W seed) {
   constexpr float kSkew = 0.366025404F;    // (sqrt(3) - 1) / 2
   constexpr float kUnskew = 0.211324865F;  // (3 - sqrt(3)) / 6
@@ -67,12 +83,13 @@ HWY_INLINE F simplex2(F px, F py, W seed) {
   const W hy = as_words(j) * set(kPrimeY);
   const W hx1 = hx + as_words(hn::IfThenElseZero(x_first, as_floats(set(kPrimeX))));
   const W hy1 = hy + as_words(hn::IfThenZeroElse(x_first, as_floats(set(kPrimeY))));
-  const F n0 = corner2(seed ^ hx ^ hy, x0, y0);
-  const F n1 = corner2(seed ^ hx1 ^ hy1, (x0 - i1) + set(kUnskew), (y0 - j1) + set(kUnskew));
-  const F n2 =
-      corner2(seed ^ (hx + set(kPrimeX)) ^ (hy + set(kPrimeY)),
-              (x0 - set(1.0F)) + set(2.0F * kUnskew), (y0 - set(1.0F)) + set(2.0F * kUnskew));
-  return ((n0 + n1) + n2) * set(kSimplex2Scale);
+  const F n0 = corner2<kSixteen>(seed ^ hx ^ hy, x0, y0);
+  const F n1 =
+      corner2<kSixteen>(seed ^ hx1 ^ hy1, (x0 - i1) + set(kUnskew), (y0 - j1) + set(kUnskew));
+  const F n2 = corner2<kSixteen>(seed ^ (hx + set(kPrimeX)) ^ (hy + set(kPrimeY)),
+                                 (x0 - set(1.0F)) + set(2.0F * kUnskew),
+                                 (y0 - set(1.0F)) + set(2.0F * kUnskew));
+  return (n0 + n1) + n2;
 }
 
 /// Where a corner of a tetrahedron lies one further than the first.
@@ -126,6 +143,49 @@ HWY_INLINE F simplex3(F px, F py, F pz, W seed) {
   return (((n0 + n1) + n2) + n3) * set(kSimplex3Scale);
 }
 
+/// What the two points of a cubic lattice that are nearest to (x, y, z) give. `mixed` are the seed
+/// and the lattice's own number.
+HWY_INLINE F cubic_pair(F px, F py, F pz, W mixed) {
+  const auto nearest = [](F v) HWY_ATTR { return cell_of(v + set(0.5F)); };
+  const I i = nearest(px);
+  const I j = nearest(py);
+  const I k = nearest(pz);
+  const F x = px - hn::ConvertTo(Floats(), i);
+  const F y = py - hn::ConvertTo(Floats(), j);
+  const F z = pz - hn::ConvertTo(Floats(), k);
+  const W hx = as_words(i) * set(kPrimeX);
+  const W hy = as_words(j) * set(kPrimeY);
+  const W hz = as_words(k) * set(kPrimeZ);
+  // The second is a step away from the first along the axis on which the first is farthest.
+  const auto on_x = hn::And(hn::Ge(hn::Abs(x), hn::Abs(y)), hn::Ge(hn::Abs(x), hn::Abs(z)));
+  const auto on_y = hn::AndNot(on_x, hn::Ge(hn::Abs(y), hn::Abs(z)));
+  const auto on_z = hn::Not(hn::Or(on_x, on_y));
+  const auto beyond = [](hn::Mask<Floats> on, F v) HWY_ATTR {
+    return v - hn::IfThenElseZero(on, hn::CopySign(set(1.0F), v));
+  };
+  const auto stepped = [](hn::Mask<Floats> on, F v, W primed, std::uint32_t prime) HWY_ATTR {
+    const F step = chosen(as_words(v), as_floats(set(0U - prime)), as_floats(set(prime)));
+    return primed + as_words(hn::IfThenElseZero(on, step));
+  };
+  const W second =
+      stepped(on_x, x, hx, kPrimeX) ^ stepped(on_y, y, hy, kPrimeY) ^ stepped(on_z, z, hz, kPrimeZ);
+  return corner3(mixed ^ hx ^ hy ^ hz, x, y, z) +
+         corner3(mixed ^ second, beyond(on_x, x), beyond(on_y, y), beyond(on_z, z));
+}
+
+/// Two cubic lattices, half a cell apart, turned so that no axis of theirs lies along one of ours.
+HWY_INLINE F open_simplex3(F px, F py, F pz, W seed) {
+  const F x = clamped(px, -0x1p28F, 0x1p28F);
+  const F y = clamped(py, -0x1p28F, 0x1p28F);
+  const F z = clamped(pz, -0x1p28F, 0x1p28F);
+  const F r = ((x + y) + z) * set(0.666666667F);
+  const F half = set(0.5F);
+  const F whole = cubic_pair(r - x, r - y, r - z, seed);
+  const F between =
+      cubic_pair((r - x) - half, (r - y) - half, (r - z) - half, seed ^ set(0x5BD1E995U));
+  return (whole + between) * set(kOpenSimplex3Scale);
+}
+
 /// table[v & 255].
 HWY_INLINE W looked_up(const PermutationTable& table, W v) {
   const I index = hn::BitCast(Integers(), v & set(255U));
@@ -174,11 +234,19 @@ void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size
       return for_each_vector(a, b, c, frequency, n, out,
                              [&](F x, F y, F z) HWY_ATTR { return perlin3(x, y, z, seed); });
     case Op::simplex2:
-      return for_each_vector(a, b, frequency, n, out,
-                             [&](F x, F y) HWY_ATTR { return simplex2(x, y, seed); });
+      return for_each_vector(a, b, frequency, n, out, [&](F x, F y) HWY_ATTR {
+        return simplex2<false>(x, y, seed) * set(kSimplex2Scale);
+      });
     case Op::simplex3:
       return for_each_vector(a, b, c, frequency, n, out,
                              [&](F x, F y, F z) HWY_ATTR { return simplex3(x, y, z, seed); });
+    case Op::open_simplex2:
+      return for_each_vector(a, b, frequency, n, out, [&](F x, F y) HWY_ATTR {
+        return simplex2<true>(x, y, seed) * set(kOpenSimplex2Scale);
+      });
+    case Op::open_simplex3:
+      return for_each_vector(a, b, c, frequency, n, out,
+                             [&](F x, F y, F z) HWY_ATTR { return open_simplex3(x, y, z, seed); });
     case Op::unity2:
       return for_each_vector(a, b, frequency, n, out,
                              [](F x, F y) HWY_ATTR { return unity2(x, y); });

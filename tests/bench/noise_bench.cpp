@@ -5,7 +5,7 @@
 
 #include "graph/rows.hpp"
 #include "kernel_bench.hpp"
-#include "support/noise_twins.hpp"
+#include "support/cell_twins.hpp"
 
 // The noises over rows of samples, each compared to the bit with its plain twin. Rows lie along x,
 // as those of a lattice do; or askew, as a warp leaves them: every coordinate changes from sample
@@ -37,7 +37,7 @@ struct Rows {
   }
   void run(const Instruction& instruction) {
     for (std::size_t at = 0; at < out.size(); at += kPiece) {
-      graph::gradient_row(instruction, &x[at], &y[at], &z[at], kPiece, &out[at]);
+      graph::any_row(instruction, &x[at], &y[at], &z[at], kPiece, &out[at]);
     }
   }
   template <class Twin>
@@ -52,7 +52,7 @@ struct Rows {
 
 template <class Twin>
 void add_noise(const std::string& name, Op op, const Twin& noise) {
-  const Instruction instruction{.op = op, .n_in = 3, .seed = kSeed, .p = {1}};
+  const Instruction instruction{.op = op, .n_in = 3, .seed = kSeed, .p = {1, 1, 1}};
   for (const float askew : {0.0F, 1.0F}) {
     const auto rows = std::make_shared<Rows>(askew);
     add_kernel(
@@ -61,18 +61,40 @@ void add_noise(const std::string& name, Op op, const Twin& noise) {
   }
 }
 
+template <class Twin>
+void add_flat(const std::string& name, Op op, const Twin& noise) {
+  add_noise(name, op, [=](float x, float y, float) { return noise(x, y, kSeed); });
+}
+template <class Twin>
+void add_deep(const std::string& name, Op op, const Twin& noise) {
+  add_noise(name, op, [=](float x, float y, float z) { return noise(x, y, z, kSeed); });
+}
+
 }  // namespace
 
 void add_noises() {
-  add_noise("perlin2", Op::perlin2,
-            [](float x, float y, float) { return twin::perlin2(x, y, kSeed); });
-  add_noise("perlin3", Op::perlin3,
-            [](float x, float y, float z) { return twin::perlin3(x, y, z, kSeed); });
-  add_noise("simplex2", Op::simplex2,
-            [](float x, float y, float) { return twin::simplex2(x, y, kSeed); });
-  add_noise("simplex3", Op::simplex3,
-            [](float x, float y, float z) { return twin::simplex3(x, y, z, kSeed); });
-  add_noise("unity2", Op::unity2, [](float x, float y, float) { return twin::unity2(x, y); });
+  Node nearest;  // cellular noise: the distance to the nearest point
+  nearest.numbers[1] = 1;
+  add_flat("perlin2", Op::perlin2, twin::perlin2);
+  add_deep("perlin3", Op::perlin3, twin::perlin3);
+  add_flat("simplex2", Op::simplex2,
+           [](float x, float y, std::uint32_t seed) { return twin::simplex2(x, y, seed); });
+  add_deep("simplex3", Op::simplex3, twin::simplex3);
+  add_flat("open_simplex2", Op::open_simplex2, twin::open_simplex2);
+  add_deep("open_simplex3", Op::open_simplex3, twin::open_simplex3);
+  add_flat("unity2", Op::unity2,
+           [](float x, float y, std::uint32_t) { return twin::unity2(x, y); });
+  add_deep("white3", Op::white3, twin::white);
+  add_flat("value2", Op::value2, twin::value2);
+  add_deep("value3", Op::value3, twin::value3);
+  add_flat("value_cubic2", Op::value_cubic2, twin::value_cubic2);
+  add_deep("value_cubic3", Op::value_cubic3, twin::value_cubic3);
+  add_flat("cellular2_f1", Op::cellular2, [=](float x, float y, std::uint32_t seed) {
+    return twin::cellular(nearest, true, x, y, 0, seed);
+  });
+  add_deep("cellular3_f1", Op::cellular3, [=](float x, float y, float z, std::uint32_t seed) {
+    return twin::cellular(nearest, false, x, y, z, seed);
+  });
 }
 
 }  // namespace mc::bench

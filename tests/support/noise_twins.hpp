@@ -123,15 +123,18 @@ inline float kernel(float r2) noexcept {
 }
 
 /// Distances that are not numbers give NaN, also where the kernel would be 0.
-inline float corner2(std::uint32_t hash, float x, float y) noexcept {
-  return kernel(x * x + y * y) * gradient2(hash, x, y);
+using Gradient2 = float (*)(std::uint32_t, float, float) noexcept;
+
+inline float corner2(Gradient2 gradient, std::uint32_t hash, float x, float y) noexcept {
+  return kernel(x * x + y * y) * gradient(hash, x, y);
 }
 
 inline float corner3(std::uint32_t hash, float x, float y, float z) noexcept {
   return kernel((x * x + y * y) + z * z) * gradient3(hash, x, y, z);
 }
 
-inline float simplex2(float px, float py, std::uint32_t seed) noexcept {
+/// Not scaled.
+inline float simplex2(Gradient2 gradient, float px, float py, std::uint32_t seed) noexcept {
   constexpr float kSkew = 0.366025404F;    // (sqrt(3) - 1) / 2
   constexpr float kUnskew = 0.211324865F;  // (3 - sqrt(3)) / 6
   const float x = clamped(px, -0x1p28F, 0x1p28F);
@@ -151,11 +154,30 @@ inline float simplex2(float px, float py, std::uint32_t seed) noexcept {
   const std::uint32_t hy = static_cast<std::uint32_t>(j) * kPrimeY;
   const std::uint32_t hx1 = hx + (x_first ? kPrimeX : 0U);
   const std::uint32_t hy1 = hy + (x_first ? 0U : kPrimeY);
-  const float n0 = corner2(hash_point(seed, hx, hy, 0), x0, y0);
-  const float n1 = corner2(hash_point(seed, hx1, hy1, 0), (x0 - i1) + kUnskew, (y0 - j1) + kUnskew);
-  const float n2 = corner2(hash_point(seed, hx + kPrimeX, hy + kPrimeY, 0),
+  const float n0 = corner2(gradient, hash_point(seed, hx, hy, 0), x0, y0);
+  const float n1 =
+      corner2(gradient, hash_point(seed, hx1, hy1, 0), (x0 - i1) + kUnskew, (y0 - j1) + kUnskew);
+  const float n2 = corner2(gradient, hash_point(seed, hx + kPrimeX, hy + kPrimeY, 0),
                            (x0 - 1.0F) + 2.0F * kUnskew, (y0 - 1.0F) + 2.0F * kUnskew);
-  return ((n0 + n1) + n2) * kSimplex2Scale;
+  return (n0 + n1) + n2;
+}
+
+inline float simplex2(float px, float py, std::uint32_t seed) noexcept {
+  return simplex2(gradient2, px, py, seed) * kSimplex2Scale;
+}
+
+/// Sixteen unit gradients at odd multiples of 11.25 degrees.
+inline float gradient16(std::uint32_t hash, float x, float y) noexcept {
+  const std::uint32_t h = hash >> 28;
+  const float main = (h & 1U) != 0 ? 0.831469612F : 0.980785280F;
+  const float side = (h & 1U) != 0 ? 0.555570233F : 0.195090322F;
+  const float u = (h & 8U) != 0 ? y : x;
+  const float v = (h & 8U) != 0 ? x : y;
+  return flipped(u, h, 1) * main + flipped(v, h, 2) * side;
+}
+
+inline float open_simplex2(float px, float py, std::uint32_t seed) noexcept {
+  return simplex2(gradient16, px, py, seed) * 99.41596F;
 }
 
 inline float simplex3(float px, float py, float pz, std::uint32_t seed) noexcept {
@@ -201,6 +223,37 @@ inline float simplex3(float px, float py, float pz, std::uint32_t seed) noexcept
   const float n3 = corner3(hash_point(seed, hx + kPrimeX, hy + kPrimeY, hz + kPrimeZ), x0 - 0.5F,
                            y0 - 0.5F, z0 - 0.5F);
   return (((n0 + n1) + n2) + n3) * kSimplex3Scale;
+}
+
+inline float cubic_pair(const float (&p)[3], std::uint32_t seed) noexcept {
+  constexpr std::uint32_t kPrimes[3] = {kPrimeX, kPrimeY, kPrimeZ};
+  std::uint32_t h[3];
+  float d[3];
+  for (int n = 0; n < 3; ++n) {
+    const std::int32_t cell = cell_of(p[n] + 0.5F);
+    h[n] = static_cast<std::uint32_t>(cell) * kPrimes[n];
+    d[n] = p[n] - static_cast<float>(cell);
+  }
+  const float first = corner3(hash_point(seed, h[0], h[1], h[2]), d[0], d[1], d[2]);
+  const float x = std::abs(d[0]);
+  const float y = std::abs(d[1]);
+  const float z = std::abs(d[2]);
+  const int axis = x >= y && x >= z ? 0 : (y >= z ? 1 : 2);
+  const bool down = std::signbit(d[axis]);
+  h[axis] += down ? 0U - kPrimes[axis] : kPrimes[axis];
+  d[axis] -= down ? -1.0F : 1.0F;
+  return first + corner3(hash_point(seed, h[0], h[1], h[2]), d[0], d[1], d[2]);
+}
+
+inline float open_simplex3(float px, float py, float pz, std::uint32_t seed) noexcept {
+  const float x = clamped(px, -0x1p28F, 0x1p28F);
+  const float y = clamped(py, -0x1p28F, 0x1p28F);
+  const float z = clamped(pz, -0x1p28F, 0x1p28F);
+  const float r = ((x + y) + z) * 0.666666667F;
+  const float whole = cubic_pair({r - x, r - y, r - z}, seed);
+  const float half =
+      cubic_pair({(r - x) - 0.5F, (r - y) - 0.5F, (r - z) - 0.5F}, seed ^ 0x5BD1E995U);
+  return (whole + half) * 76.88075F;
 }
 
 inline std::uint32_t permuted(std::uint32_t v) noexcept {

@@ -124,21 +124,36 @@ class RandomGraph {
           p[n + 3] = static_cast<float>(whole(0, 3));
         }
         return;
+      case NodeType::white:
+      case NodeType::value:
+      case NodeType::value_cubic:
       case NodeType::perlin:
       case NodeType::simplex:
+      case NodeType::opensimplex2:
         p[0] = std::exp2(p[0] - 3);
+        return;
+      case NodeType::cellular:
+        p[0] = std::exp2(p[0] - 3);
+        p[1] = std::abs(p[1]) / 3;
+        out.cell_return = static_cast<CellReturn>(whole(0, 3));
+        out.cell_metric = static_cast<CellMetric>(whole(0, 2));
         return;
       case NodeType::unity_perlin2d:
         p[0] = std::exp2(p[0] - 3);
         if (whole(0, 1) == 0) out.inputs = inputs(2);
         return;
       case NodeType::fbm:
+      case NodeType::ridged:
+      case NodeType::billow:
+      case NodeType::pingpong:
         out.inputs = inputs(1);
         out.octaves = static_cast<std::uint32_t>(whole(1, 3));
-        p = {2, 0.5F, whole(0, 1) == 0 ? 0 : std::abs(p[2]) / 3};
+        p = {2, 0.5F, whole(0, 1) == 0 ? 0 : std::abs(p[2]) / 3, std::abs(p[3])};
         return;
       case NodeType::warp:
         out.inputs = inputs(2);
+        out.warp_mode = static_cast<WarpMode>(whole(0, 2));
+        out.octaves = static_cast<std::uint32_t>(whole(1, 3));
         return;
       case NodeType::clamp:
       case NodeType::smoothstep:

@@ -40,10 +40,18 @@ const std::map<std::string, NodeType, std::less<>>& node_types() {
       {"curve", NodeType::curve},
       {"terrace", NodeType::terrace},
       {"floor-hard", NodeType::floor_hard},
+      {"white", NodeType::white},
+      {"value", NodeType::value},
+      {"value-cubic", NodeType::value_cubic},
       {"perlin", NodeType::perlin},
       {"simplex", NodeType::simplex},
+      {"opensimplex2", NodeType::opensimplex2},
+      {"cellular", NodeType::cellular},
       {"unity-perlin2d", NodeType::unity_perlin2d},
       {"fbm", NodeType::fbm},
+      {"ridged", NodeType::ridged},
+      {"billow", NodeType::billow},
+      {"pingpong", NodeType::pingpong},
       {"warp", NodeType::warp},
       {"translate", NodeType::affine},
       {"rotate", NodeType::affine},
@@ -80,8 +88,6 @@ bool is_coordinate(std::string_view name) { return name == "x" || name == "y" ||
 NodeType coordinate_type(std::string_view name) {
   return name == "x" ? NodeType::x : name == "y" ? NodeType::y : NodeType::z;
 }
-
-constexpr std::int64_t kMostSeed = 0xFFFFFFFFLL;
 
 }  // namespace
 
@@ -301,13 +307,23 @@ void NodeLoader::fill(Node& node, ObjectReader& keys, const std::string& name) {
         put(node, 0, keys.number("smooth", 0, kFloatNotNegative));
       }
       return;
+    case NodeType::white:
+    case NodeType::value:
+    case NodeType::value_cubic:
     case NodeType::perlin:
     case NodeType::simplex:
+    case NodeType::opensimplex2:
+    case NodeType::cellular:
       return fill_generator(node, keys);
     case NodeType::unity_perlin2d:
       return fill_unity(node, keys);
     case NodeType::fbm:
-      return fill_fbm(node, keys);
+    case NodeType::ridged:
+    case NodeType::billow:
+    case NodeType::pingpong:
+      return fill_fractal(node, keys);
+    case NodeType::warp:
+      return fill_warp(node, keys);
     case NodeType::select:
     case NodeType::curve:
     case NodeType::terrace:
@@ -368,52 +384,6 @@ void NodeLoader::fill_shaping(Node& node, ObjectReader& keys) {
     const bool complete = at != nullptr && at->items.size() == 2;
     need(node.numbers[0] < node.numbers[1] || !complete, "edges",
          "does not rise: expected the lower edge first (as float32)");
-  } else if (node.type == NodeType::warp) {
-    take_input(node, keys, "warp");
-    put(node, 0, keys.number("amplitude", 1, kAnyFloat));
-  }
-}
-
-void NodeLoader::fill_generator(Node& node, ObjectReader& keys) {
-  put(node, 0, keys.number("frequency", 1, kPositiveFloat));
-  node.seed = static_cast<std::uint32_t>(keys.integer("seed", 0, 0, kMostSeed));
-  if (keys.value().find("dims") != nullptr) {
-    node.dims = Dims(keys.choice("dims", std::nullopt, {"xyz", "xy", "xz", "yz"}));
-  } else {
-    keys.optional("dims");
-  }
-}
-
-void NodeLoader::fill_unity(Node& node, ObjectReader& keys) {
-  const JsonValue* x = keys.optional("x");
-  const JsonValue* y = keys.optional("y");
-  put(node, 0, keys.number("frequency", 1, kPositiveFloat));
-  const bool has_dims = keys.optional("dims") != nullptr;
-  if (has_dims) {
-    node.dims = Dims(keys.choice("dims", std::nullopt, {"xy", "xz", "yz"}) + 1);
-  }
-  if (x == nullptr && y == nullptr) {
-    return;
-  }
-  if (x == nullptr || y == nullptr || has_dims || keys.value().find("frequency") != nullptr) {
-    document_.fault(keys.value(),
-                    "expected either both \"x\" and \"y\", or \"frequency\" and \"dims\"");
-    return;
-  }
-  node.inputs = {load(*x), load(*y)};
-}
-
-void NodeLoader::fill_fbm(Node& node, ObjectReader& keys) {
-  constexpr NumberRange kLacunarity{1.0 / 64, 64, false, "a number from 1/64 to 64"};
-  constexpr NumberRange kGain{0, 8, false, "a number from 0 to 8"};
-  constexpr NumberRange kWeighted{0, 1, false, "a number from 0 to 1"};
-  take_input(node, keys, "source");
-  node.octaves = static_cast<std::uint32_t>(keys.integer("octaves", 4, 1, 32));
-  put(node, 0, keys.number("lacunarity", 2, kLacunarity));
-  put(node, 1, keys.number("gain", 0.5, kGain));
-  put(node, 2, keys.number("weighted", 0, kWeighted));
-  if (keys.optional("dims") != nullptr) {
-    node.dims = Dims(keys.choice("dims", std::nullopt, {"xyz", "xy", "xz", "yz"}));
   }
 }
 

@@ -43,7 +43,8 @@ class NodeLoader {
   void fill(Node& node, ObjectReader& keys, const std::string& name);
   void fill_generator(Node& node, ObjectReader& keys);
   void fill_unity(Node& node, ObjectReader& keys);
-  void fill_fbm(Node& node, ObjectReader& keys);
+  void fill_fractal(Node& node, ObjectReader& keys);
+  void fill_warp(Node& node, ObjectReader& keys);
   void fill_solid(Node& node, ObjectReader& keys);
   void fill_shell(Node& node, ObjectReader& keys);
   void fill_shaping(Node& node, ObjectReader& keys);

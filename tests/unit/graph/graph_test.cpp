@@ -200,8 +200,7 @@ struct Golden {
 
 /// Whether the golden bits are of this node over noise; else its inputs are the coordinates.
 bool is_over_noise(NodeType type) {
-  return type == NodeType::fbm || type == NodeType::warp || type == NodeType::affine ||
-         type == NodeType::mirror || type == NodeType::repeat;
+  return type >= NodeType::fbm && type <= NodeType::repeat;  // fractals, warps, transforms
 }
 
 // The formulas are final: whoever makes them faster must leave these alone, on every SIMD target.
@@ -218,14 +217,21 @@ std::vector<float> golden_values(const Golden& golden) {
   node.seed = 7;
   node.octaves = 4;
   node.list = golden.list;
-  if (std::string_view(golden.name).ends_with(" xz")) {
-    node.dims = Dims::xz;
-  }
-  if (std::string_view(golden.name).ends_with(" smooth")) {
-    node.curve_shape = CurveShape::smooth;
-  }
+  const auto says = [&](std::string_view word) {
+    return std::string_view(golden.name).ends_with(word);
+  };
+  if (says(" xz")) node.dims = Dims::xz;
+  if (says(" smooth")) node.curve_shape = CurveShape::smooth;
+  if (says(" value")) node.cell_return = CellReturn::value;
+  if (says(" f2")) node.cell_return = CellReturn::f2;
+  if (says(" f2-f1")) node.cell_return = CellReturn::f2_f1;
+  if (says(" manhattan")) node.cell_metric = CellMetric::manhattan;
+  if (says(" chebyshev")) node.cell_metric = CellMetric::chebyshev;
+  if (says(" progressive")) node.warp_mode = WarpMode::progressive;
+  if (says(" independent")) node.warp_mode = WarpMode::independent;
   if (is_over_noise(golden.type)) {
     node.inputs[0] = graph.add(make(NodeType::perlin, {}, {0.7F}));
+    if (node.warp_mode != WarpMode::single) node.inputs[1] = node.inputs[0];
   }
   return sampled(graph, graph.add(node), {-9.25, -3.5, -4}, {0.37, 1.125, 0.83}, {67, 9, 11});
 }
