@@ -51,12 +51,13 @@ class Emitter {
  private:
   /// The value of an instruction: a new one, or that of an equal instruction before it.
   Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
-             std::uint32_t seed = 0) {
+             std::uint32_t seed = 0, const RasterUse* raster = nullptr) {
     Instruction instruction{.op = op,
                             .out = static_cast<Value>(code_.size()),
                             .n_in = static_cast<std::uint8_t>(inputs.size()),
                             .seed = seed,
-                            .p = p};
+                            .p = p,
+                            .raster = raster};
     std::copy(inputs.begin(), inputs.end(), instruction.in.begin());
     instruction = reduced(instruction, code_);
     if (code_.size() >= Graph::kMaxInstructions) {
@@ -107,6 +108,7 @@ class Emitter {
   Value emit_shell(const Node& node, const Domain& domain);
   Value emit_combination(const Node& node, const Domain& domain);
   Value emit_heightmap(const Node& node, const Domain& domain);
+  const RasterUse* use_of(const Node& node);
 
   Value unary(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
     return push(op, {emit(node.inputs[0], domain)}, p);
@@ -132,7 +134,7 @@ class Emitter {
   const Graph& graph_;
   std::vector<Instruction> code_;
   std::vector<std::shared_ptr<const RasterUse>> rasters_;
-  std::map<const Raster*, std::array<float, 2>> ranges_;
+  std::map<std::tuple<const Raster*, Wrap, Filter>, const RasterUse*> uses_;
   std::map<std::pair<NodeId, Domain>, Value> done_;
   std::map<Recipe, Value> values_;
   Domain world_;
@@ -565,14 +567,19 @@ Value Emitter::emit_heightmap(const Node& node, const Domain& domain) {
   std::array<float, 6> p = node.numbers;
   p[2] = static_cast<float>(node.raster->width) / p[2];
   p[3] = static_cast<float>(node.raster->height) / p[3];
-  const Value value = push(Op::heightmap, {domain.at[axes[0]], domain.at[axes[1]]}, p);
-  const auto known = ranges_.find(node.raster.get());
-  const auto range = known != ranges_.end() ? known->second : range_of(*node.raster);
-  ranges_.emplace(node.raster.get(), range);
-  rasters_.push_back(std::make_shared<const RasterUse>(
-      RasterUse{node.raster, node.wrap, node.filter, range[0], range[1]}));
-  code_[value].raster = rasters_.back().get();
-  return value;
+  return push(Op::heightmap, {domain.at[axes[0]], domain.at[axes[1]]}, p, 0, use_of(node));
+}
+
+/// How a node reads its samples: one for all that read the same in the same way.
+const RasterUse* Emitter::use_of(const Node& node) {
+  const RasterUse*& use = uses_[{node.raster.get(), node.wrap, node.filter}];
+  if (use == nullptr) {
+    const auto [least, greatest] = range_of(*node.raster);
+    rasters_.push_back(std::make_shared<const RasterUse>(
+        RasterUse{node.raster, node.wrap, node.filter, least, greatest}));
+    use = rasters_.back().get();
+  }
+  return use;
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ struct Instruction {
   std::uint8_t n_in = 0;
   std::uint32_t seed = 0;
   std::array<float, 6> p{};
-  const RasterUse* raster = nullptr;  ///< one of Program::rasters; no two instructions share it
+  const RasterUse* raster = nullptr;  ///< one of Program::rasters
 };
 
 /// Samples are computed in pieces of this many, so that registers stay in the cache.

@@ -186,6 +186,11 @@ void SurfaceSampler::write_faces(const IndexBox& part, float value) {
   const auto on_face = [&](std::size_t axis, std::int32_t at) {
     return at == query_.region.lo[axis] || at == query_.region.hi[axis];
   };
+  bool touches = false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    touches = touches || on_face(a, part.lo[a]) || on_face(a, part.hi[a]);
+  }
+  if (!touches) return;
   for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
     for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
       if (on_face(1, j) || on_face(2, k)) {

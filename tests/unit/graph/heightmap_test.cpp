@@ -156,5 +156,25 @@ TEST(HeightmapEdges, BitsArePinned) {
   }
 }
 
+TEST(Heightmap, IsSharedOnlyWithItsOwnKind) {
+  Graph graph({});
+  const auto picture = random_picture(7, 5);
+  auto other = std::make_shared<Raster>(*picture);
+  for (float& v : other->samples) v += 100;
+  const auto added = [&](std::shared_ptr<const Raster> raster, Filter filter) {
+    return graph.add(heightmap(std::move(raster), Wrap::clamp, filter));
+  };
+  const NodeId here = added(picture, Filter::linear);
+  const NodeId higher = added(other, Filter::linear);
+  const NodeId coarse = added(picture, Filter::nearest);
+  const Vec3 at{0.3, 0, 4.1};
+  const auto difference = [&](NodeId a, NodeId b) {
+    return value_at(graph, graph.add(make(NodeType::sub, {a, b})), at);
+  };
+  EXPECT_NEAR(difference(higher, here), 500, 0.001);
+  EXPECT_NE(difference(coarse, here), 0);
+  EXPECT_EQ(difference(added(picture, Filter::linear), here), 0);
+}
+
 }  // namespace
 }  // namespace mc::tests
