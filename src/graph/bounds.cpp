@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/bounds_shape.hpp"
 #include "graph/float_math.hpp"
+#include "graph/interval_math.hpp"
 #include "graph/noise_range.hpp"
 #include "graph/rows.hpp"
 
@@ -16,69 +18,6 @@
 namespace mc::graph {
 
 namespace {
-
-constexpr Interval kUnknown{};
-
-/// [lo, hi], but unknown where an end is not finite: infinities would breed NaN further on.
-Interval between(float lo, float hi) {
-  constexpr float kMost = std::numeric_limits<float>::max();
-  return lo >= -kMost && hi <= kMost && lo <= hi ? Interval{lo, hi} : kUnknown;
-}
-
-/// The hull of two numbers in any order.
-Interval hull(float u, float v) { return v < u ? between(v, u) : between(u, v); }
-
-Interval widened(Interval a, float by) { return between(a.lo - by, a.hi + by); }
-
-/// The largest size of a number in it.
-float size_of(Interval a) { return std::max(std::abs(a.lo), std::abs(a.hi)); }
-
-bool holds_zero(Interval a) { return a.lo <= 0 && a.hi >= 0; }
-
-Interval sum(Interval a, Interval b) { return between(a.lo + b.lo, a.hi + b.hi); }
-Interval difference(Interval a, Interval b) { return between(a.lo - b.hi, a.hi - b.lo); }
-
-template <class F>
-Interval over_corners(Interval a, Interval b, F f) {
-  const float v[4] = {f(a.lo, b.lo), f(a.lo, b.hi), f(a.hi, b.lo), f(a.hi, b.hi)};
-  return between(std::min(std::min(v[0], v[1]), std::min(v[2], v[3])),
-                 std::max(std::max(v[0], v[1]), std::max(v[2], v[3])));
-}
-
-Interval product(Interval a, Interval b) {
-  return over_corners(a, b, [](float u, float v) { return u * v; });
-}
-
-Interval quotient(Interval a, Interval b) {
-  if (holds_zero(b)) return kUnknown;
-  return over_corners(a, b, [](float u, float v) { return u / v; });
-}
-
-Interval magnitude(Interval a) {
-  if (holds_zero(a)) return between(0, size_of(a));
-  return hull(std::abs(a.lo), std::abs(a.hi));
-}
-
-Interval square(Interval a) {
-  const Interval m = magnitude(a);
-  return between(m.lo * m.lo, m.hi * m.hi);
-}
-
-Interval root(Interval a) {
-  return a.lo >= 0 ? between(__builtin_sqrtf(a.lo), __builtin_sqrtf(a.hi)) : kUnknown;
-}
-
-/// Of a function that never falls.
-template <class F>
-Interval rising(Interval a, F f) {
-  return between(f(a.lo), f(a.hi));
-}
-
-/// Of a function that rises or falls throughout.
-template <class F>
-Interval monotone(Interval a, F f) {
-  return hull(f(a.lo), f(a.hi));
-}
 
 Interval fraction(Interval a) {
   const float cell = exact_floor(a.lo);
@@ -152,6 +91,36 @@ Interval mixture(Interval a, Interval b, Interval c) {
   const float slack = std::max(size_of(a), size_of(b)) * 0x1p-20F;
   const Interval both = widened({std::min(a.lo, b.lo), std::max(a.hi, b.hi)}, slack);
   return plain.known() ? between(std::max(plain.lo, both.lo), std::min(plain.hi, both.hi)) : plain;
+}
+
+/// A select's band, of its ends the sides themselves.
+Interval blended(Interval a, Interval b, Interval t) {
+  if (!t.known()) return kUnknown;
+  if (t.hi <= 0) return a;
+  if (t.lo >= 1) return b;
+  Interval out = mixture(a, b, {std::max(t.lo, 0.0F), std::min(t.hi, 1.0F)});
+  if (t.lo <= 0) out = joined(out, a);
+  return t.hi >= 1 ? joined(out, b) : out;
+}
+
+/// The cubic of a curve for places above its start. It is monotone on its own piece, but for the
+/// rounding of its coefficients and steps, and held beyond it.
+Interval curve_piece(Interval a, const std::array<float, 6>& p) {
+  const auto at = [&](float v) { return least(greatest(v - p[0], 0.0F), p[5]); };
+  const auto cubic = [&](float t) { return ((p[4] * t + p[3]) * t + p[2]) * t + p[1]; };
+  const float t = at(a.hi);
+  const float size = ((std::abs(p[4]) * t + std::abs(p[3])) * t + std::abs(p[2])) * t;
+  return widened(hull(cubic(at(a.lo)), cubic(t)), (size + std::abs(p[1])) * 0x1p-20F);
+}
+
+/// Within one copy a shift; over several half a period each way, and what lies beyond the last.
+Interval repetition(Interval a, const std::array<float, 6>& p) {
+  const auto copy = [&](float v) { return clamped(exact_floor(v / p[0] + 0.5F), p[1], p[2]); };
+  const auto place = [&](float v) { return v - p[0] * copy(v); };
+  const Interval ends = hull(place(a.lo), place(a.hi));
+  if (copy(a.lo) == copy(a.hi)) return ends;
+  const float slack = (size_of(a) + p[0]) * 0x1p-20F;
+  return joined(ends, widened({-0.5F * p[0], 0.5F * p[0]}, slack));
 }
 
 Interval weight(Interval amplitude, Interval noise, float gain, float weighted) {
@@ -326,6 +295,16 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return smooth_step(a, p[0], p[1]);
     case Op::mix:
       return mixture(a, b, c);
+    case Op::select:
+      return c.hi < p[0] ? a : c.lo >= p[0] ? b : joined(a, b);
+    case Op::blend:
+      return blended(a, b, smooth_step(c, p[0], p[1]));
+    case Op::curve:
+      return a.hi < p[0] ? b : a.lo >= p[0] ? curve_piece(a, p) : joined(b, curve_piece(a, p));
+    case Op::terrace:
+      return rising(a, [&](float v) { return terraced(v, p); });
+    case Op::repeat:
+      return repetition(a, p);
     case Op::scale:
       return monotone(a, [&](float v) { return v * p[0]; });
     case Op::accumulate:
@@ -392,19 +371,17 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
       return torus(in, instruction);
     case Op::heightmap:
       return heights(a, b, instruction);
-    case Op::copy:
-      return a;
-    case Op::select:
-    case Op::blend:
-    case Op::curve:
-    case Op::terrace:
-    case Op::repeat:
     case Op::cylinder:
+      return cylinder_bounds(instruction, in);
     case Op::cone:
     case Op::capsule:
+      return distance_bounds(instruction, in);
     case Op::ellipsoid:
+      return ellipsoid_bounds(instruction, in);
     case Op::gyroid:
-      return kUnknown;
+      return gyroid_bounds(instruction, in);
+    case Op::copy:
+      return a;
   }
   return kUnknown;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -29,6 +30,14 @@ namespace mc::graph {
 [[nodiscard]] inline float clamped(float v, float lo, float hi) noexcept {
   const float raised = v < lo ? lo : v;
   return raised > hi ? hi : raised;
+}
+
+/// Steps of p[0] from p[3] on, flat up to p[1] of a step, then rising by p[2] a step. Never falls.
+[[nodiscard]] inline float terraced(float v, const std::array<float, 6>& p) noexcept {
+  const float level = (v - p[3]) / p[0];
+  const float whole = exact_floor(level);
+  const float rise = least(greatest((level - whole) - p[1], 0.0F) * p[2], 1.0F);
+  return (whole + rise) * p[0] + p[3];
 }
 
 /// Sine of radians.

@@ -35,9 +35,14 @@ std::vector<double> monotone_slopes(const std::vector<double>& width,
   return at;
 }
 
-Numbers piece(double x, double c0, double c1 = 0, double c2 = 0, double c3 = 0) {
-  return {static_cast<float>(x), static_cast<float>(c0), static_cast<float>(c1),
-          static_cast<float>(c2), static_cast<float>(c3)};
+/// From x to `end`, a cubic in what lies between.
+Numbers piece(float x, float end, double c0, double c1 = 0, double c2 = 0, double c3 = 0) {
+  return {x,
+          static_cast<float>(c0),
+          static_cast<float>(c1),
+          static_cast<float>(c2),
+          static_cast<float>(c3),
+          end - x};
 }
 
 /// A capsule's ends. Where the ball of one holds the other's, both are that ball's.
@@ -104,16 +109,17 @@ CurvePieces curve_pieces(std::span<const float> points, CurveShape shape) {
                     .end_x = points[2 * n_pieces],
                     .last = points[2 * n_pieces + 1]};
   for (std::size_t n = 0; n < n_pieces; ++n) {
-    const double x = double{points[2 * n]};
+    const float x = points[2 * n];
+    const float end = points[2 * n + 2];
     const double y = double{points[2 * n + 1]};
     if (shape == CurveShape::steps) {
-      curve.pieces.push_back(piece(x, y));
+      curve.pieces.push_back(piece(x, end, y));
     } else if (shape == CurveShape::linear) {
-      curve.pieces.push_back(piece(x, y, slope[n]));
+      curve.pieces.push_back(piece(x, end, y, slope[n]));
     } else {
       const double c2 = (3 * slope[n] - 2 * at[n] - at[n + 1]) / width[n];
       const double c3 = (at[n] + at[n + 1] - 2 * slope[n]) / (width[n] * width[n]);
-      curve.pieces.push_back(piece(x, y, at[n], c2, c3));
+      curve.pieces.push_back(piece(x, end, y, at[n], c2, c3));
     }
   }
   return curve;
@@ -123,11 +129,13 @@ CurvePieces terrace_pieces(std::span<const float> levels, float ramp) {
   CurvePieces curve{
       .first = levels.front(), .pieces = {}, .end_x = levels.back(), .last = levels.back()};
   for (std::size_t n = 0; n + 1 < levels.size(); ++n) {
-    const double low = double{levels[n]};
-    const double height = double{levels[n + 1]} - low;
-    curve.pieces.push_back(piece(low, low));
+    const float low = levels[n];
+    const float high = levels[n + 1];
+    const double height = double{high} - double{low};
+    const auto foot = static_cast<float>(double{low} + height * (1 - double{ramp}));
+    curve.pieces.push_back(piece(low, high, low));
     if (ramp > 0) {
-      curve.pieces.push_back(piece(low + height * (1 - double{ramp}), low, 1 / double{ramp}));
+      curve.pieces.push_back(piece(foot, high, low, 1 / double{ramp}));
     }
   }
   return curve;

@@ -41,7 +41,7 @@ enum class Op : std::uint8_t {
   mix,           // a + (b - a) * c
   select,        // c < p0 ? a : b
   blend,         // a + (b - a) * smoothstep of c over [p0, p0 + p1]
-  curve,         // b where a < p0, else the cubic p1 + p2 t + p3 t^2 + p4 t^3, t = a - p0
+  curve,         // b where a < p0, else p1 + p2 t + p3 t^2 + p4 t^3 with t = a - p0, at most p5
   terrace,       // steps of p0 from p3, flat up to p1 of a step, then rising by p2 a step
   repeat,        // a - p0 * n, n the nearest whole number of periods within [p1, p2]
   scale,         // a * p0

@@ -22,6 +22,12 @@ Instruction plus_zero(const Instruction& instruction, std::size_t input) {
   return {.op = Op::offset, .out = instruction.out, .in = {instruction.in[input]}, .n_in = 1};
 }
 
+/// Where the second input does not matter, the first stands in for it.
+Instruction without_second(Instruction instruction) {
+  instruction.in[1] = instruction.in[0];
+  return instruction;
+}
+
 }  // namespace
 
 Instruction simplified(const Instruction& instruction, const std::array<Interval, 3>& inputs,
@@ -55,6 +61,17 @@ Instruction simplified(const Instruction& instruction, const std::array<Interval
     case Op::abs:
       if (a.lo > 0) return copy_of(instruction, 0);
       return instruction;
+    case Op::select:
+      if (c.hi < p[0]) return copy_of(instruction, 0);
+      if (c.lo >= p[0]) return copy_of(instruction, 1);
+      return instruction;
+    case Op::blend:
+      if (c.hi <= p[0]) return copy_of(instruction, 0);
+      if ((c.lo - p[0]) / p[1] >= 1) return copy_of(instruction, 1);
+      return instruction;
+    case Op::curve:
+      if (a.hi < p[0]) return copy_of(instruction, 1);
+      return a.lo >= p[0] ? without_second(instruction) : instruction;
     case Op::mix:
       if (c.single() && c.lo == 0 && value.known() && without_zero(a)) {
         return copy_of(instruction, 0);

@@ -86,16 +86,9 @@ float blended(float a, float b, float control, float edge, float width) noexcept
 }
 
 float curve_piece(float v, float below, const std::array<float, 6>& p) noexcept {
-  const float t = v - p[0];
+  const float t = least(v - p[0], p[5]);
   const float cubic = ((p[4] * t + p[3]) * t + p[2]) * t + p[1];
   return v < p[0] ? below : cubic;
-}
-
-float terraced(float v, const std::array<float, 6>& p) noexcept {
-  const float level = (v - p[3]) / p[0];
-  const float whole = exact_floor(level);
-  const float rise = least(greatest((level - whole) - p[1], 0.0F) * p[2], 1.0F);
-  return (whole + rise) * p[0] + p[3];
 }
 
 /// The coordinate within the nearest copy.

@@ -97,17 +97,20 @@ float capsule_distance(float x, float y, float z, const Instruction& instruction
   return along < 0.0F ? bottom : upper;
 }
 
-/// k0 (1 - k0) / k1 with k0 = |p / r|, k1 = |p / r^2|: the implicit function over its slope. At the
-/// centre, where it has no slope, the least radius.
+/// (1 - k0) k0 / k1 with k0 = |p / r|, k1 = |p / r^2|: the implicit function over its slope. k0 /
+/// k1 is within the radii and held there, whatever underflows; at the centre, where it has no
+/// value, the least radius.
 float ellipsoid_distance(const Place& at, const Instruction& instruction) noexcept {
   const auto& p = instruction.p;
+  const float low = least(p[3], least(p[4], p[5]));
+  const float high = greatest(p[3], greatest(p[4], p[5]));
   const float x = at.x / p[3];
   const float y = at.y / p[4];
   const float z = at.z / p[5];
   const float k0 = length(x, y, z);
   const float k1 = length(x / p[3], y / p[4], z / p[5]);
-  const float distance = (k0 * (1.0F - k0)) / k1;
-  return k1 > 0.0F || k1 != k1 ? distance : least(p[3], least(p[4], p[5]));
+  const float distance = (1.0F - k0) * clamped(k0 / k1, low, high);
+  return k0 < 0x1p-30F ? low : distance;
 }
 
 /// g over its slope, which on the surface is from sqrt 2 to sqrt 3; held at 1 or more, so that the

@@ -163,6 +163,27 @@ TEST(Bounds, NoisesAreNoSteeperThanClaimed) {
   }
 }
 
+TEST(Bounds, TheGyroidIsNoSteeperThanClaimed) {
+  const graph::Instruction gyroid{.op = graph::Op::gyroid, .n_in = 3, .p = {0, 0, 0, 1}};
+  const auto sample = [&](const std::array<float, 3>& p) {
+    std::array<std::array<float, graph::kRowStep>, 4> rows{};
+    for (std::size_t a = 0; a < 3; ++a) rows[a].fill(p[a]);
+    graph::solid_row(gyroid, rows[0].data(), rows[1].data(), rows[2].data(), 1, rows[3].data());
+    return double{rows[3][0]};
+  };
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> at(-7, 7), step(-0.01F, 0.01F);
+  double steepest = 0;
+  for (int n = 0; n < 400000; ++n) {
+    const std::array<float, 3> a{at(random), at(random), at(random)};
+    const std::array<float, 3> b{a[0] + step(random), a[1] + step(random), a[2] + step(random)};
+    const double way = std::hypot(double{a[0]} - b[0], double{a[1]} - b[1], double{a[2]} - b[2]);
+    if (way > 1e-3) steepest = std::max(steepest, std::abs(sample(a) - sample(b)) / way);
+  }
+  EXPECT_LT(steepest, 3.0);
+  EXPECT_GT(steepest, 2.5);
+}
+
 Interval of(graph::Op op, Interval a, Interval b = {}, std::array<float, 6> p = {},
             bool same = false) {
   const graph::Instruction i{.op = op,
