@@ -5,6 +5,8 @@
 #include <limits>
 #include <random>
 
+#include "graph/bounds.hpp"
+#include "graph/compile.hpp"
 #include "unit/graph/graph_support.hpp"
 
 // Pictures over the ground: formulas by a second, plainer way, edges, and bits.
@@ -142,6 +144,37 @@ TEST(HeightmapEdges, GraphRefusesWhatIsNoPicture) {
   Node node = heightmap(random_picture(3, 3), Wrap::clamp, Filter::linear);
   node.numbers[2] = 0;
   EXPECT_THROW(graph.add(node), Error);
+}
+
+TEST(HeightmapEdges, BoundsHoldEverySample) {
+  const auto raster = random_picture(7, 4);
+  for (const Wrap wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirror}) {
+    for (const Filter filter : {Filter::nearest, Filter::linear, Filter::cubic}) {
+      Graph made({});
+      const graph::Program program =
+          graph::compile(made, made.add(heightmap(raster, wrap, filter)));
+      const graph::Interval everywhere{-100, 100};
+      const graph::Instruction& code = program.code[program.result];
+      const graph::Interval bounds =
+          graph::bounds_of(code, {everywhere, everywhere, everywhere}, everywhere, everywhere, {});
+      ASSERT_TRUE(bounds.known());
+      EXPECT_LT(bounds.hi - bounds.lo, filter == Filter::cubic ? 8.1F : 5.1F);
+      const NodeId root = made.add(heightmap(raster, wrap, filter));
+      for (const float v : sampled(made, root, {-40, 0, -40}, {0.13, 1, 0.17}, {600, 1, 470})) {
+        ASSERT_LE(bounds.lo, v);
+        ASSERT_GE(bounds.hi, v);
+      }
+    }
+  }
+}
+
+TEST(HeightmapEdges, BoundsVouchForNothingThatIsNotFinite) {
+  auto raster = std::make_shared<Raster>(*random_picture(3, 3));
+  raster->samples[4] = std::numeric_limits<float>::infinity();
+  Graph made({});
+  const graph::Program program =
+      graph::compile(made, made.add(heightmap(raster, Wrap::clamp, Filter::linear)));
+  EXPECT_FALSE(graph::bounds_of(program.code[program.result], {}, {0, 1}, {0, 1}, {}).known());
 }
 
 TEST(HeightmapEdges, BitsArePinned) {
