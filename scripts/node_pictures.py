@@ -81,6 +81,8 @@ SECTIONS = {
         "ridged": ("value", node("ridged", octaves=5, source=node("perlin", frequency=0.8))),
         "billow": ("value", node("billow", octaves=5, source=node("perlin", frequency=0.8))),
         "pingpong": ("value", node("pingpong", octaves=3, source=node("perlin", frequency=0.8))),
+        "heightmap": ("value", node("heightmap", path="specs/heightmap/island.png", size=4,
+                                    origin=[-2, -2], dims="xy", height=0.5)),
         "warp": ("value", node("warp", amplitude=0.5, warp=node("simplex", frequency=0.7),
                                source=node("fbm", octaves=4, source=node("perlin", frequency=0.8)))),
     },
@@ -127,6 +129,7 @@ def sample(mc, field, upright):
                  "origin": [low, low, 0] if upright else [low, 0, low]},
     }
     with tempfile.TemporaryDirectory() as folder:
+        pathlib.Path(folder, "specs").symlink_to(ROOT / "data" / "specs")
         spec = pathlib.Path(folder, "node.json")
         raw = pathlib.Path(folder, "node.raw")
         spec.write_text(json.dumps(document))

@@ -24,7 +24,7 @@ CORPUS = ROOT / "data" / "corpus" / "spec"
 # Faults of names, rings, expansion and of numbers against each other.
 BEYOND_A_SCHEMA = re.compile(
     r"there is no node|closes a ring|expand to more|nest deeper|more bytes of samples|past world|"
-    r"duplicate key|works out to|cannot be inverted|has no direction|does not rise|"
+    r"cannot be read|duplicate key|works out to|cannot be inverted|has no direction|does not rise|"
     r"is above \\?\"max|two equal numbers|at most half"
 )
 CORPUS_BEYOND = {
@@ -32,6 +32,8 @@ CORPUS_BEYOND = {
     "plane-without-direction.json", "ring.json", "self-ring.json", "unknown-name.json",
     "warps.json", "lone-surrogate.json",
 }
+
+NEEDS_A_FILE = {"heightmap"}  # which the corpus does not have; data/specs has
 
 
 def parsed(text):
@@ -98,7 +100,7 @@ def main():
     named = set(schema["$defs"]["object"]["properties"]["type"]["enum"])
     for name in sorted(types ^ named):
         faults.append(f"{name}: known to the loader or to the schema, not to both")
-    for name in sorted(types - shown):
+    for name in sorted(types - shown - NEEDS_A_FILE):
         faults.append(f"{name}: in no good document of the corpus")
     for name in sorted(types):
         if not re.search(rf"^\*\*.*\b{name}\*\*|^\*\*{name}\*\*", page, re.MULTILINE):

@@ -43,6 +43,7 @@ TEST(RandomSpecs, UseEveryTypeThatTheLoaderKnows) {
       known.insert(loader.substr(quote + 1, at - quote - 2));
     }
   }
+  known.erase("heightmap");  // needs a picture
   std::set<std::string> used;
   for (const NodeGrammar& grammar : kNodeGrammar) {
     used.insert(std::string(grammar.type));
