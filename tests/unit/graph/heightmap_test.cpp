@@ -146,6 +146,29 @@ TEST(HeightmapEdges, GraphRefusesWhatIsNoPicture) {
   EXPECT_THROW(graph.add(node), Error);
 }
 
+TEST(HeightmapEdges, PicturesAreToldApart) {
+  Graph graph({});
+  const auto one = random_picture(7, 4);
+  auto other = std::make_shared<Raster>(*one);
+  for (float& v : other->samples) v = 1 - v;
+  const auto sum = [&](const Node& a, const Node& b) {
+    const NodeId root = graph.add(make(NodeType::add, {graph.add(a), graph.add(b)}));
+    return value_at(graph, root, {1, 0, 4});
+  };
+  const Node a = heightmap(one, Wrap::clamp, Filter::linear);
+  EXPECT_NEAR(sum(a, heightmap(other, Wrap::clamp, Filter::linear)), 5, 1e-5);
+  EXPECT_NE(sum(a, heightmap(one, Wrap::clamp, Filter::nearest)), sum(a, a));
+}
+
+TEST(HeightmapEdges, ConstantPlacesAreFolded) {
+  Graph graph({});
+  const auto raster = random_picture(7, 4);
+  Node still = make(NodeType::affine, {graph.add(heightmap(raster, Wrap::clamp, Filter::cubic))});
+  still.list = {0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 4};
+  EXPECT_EQ(value_at(graph, graph.add(still), {9, 9, 9}),
+            value_at(graph, still.inputs[0], {1, 0, 4}));
+}
+
 TEST(HeightmapEdges, BoundsHoldEverySample) {
   const auto raster = random_picture(7, 4);
   for (const Wrap wrap : {Wrap::clamp, Wrap::repeat, Wrap::mirror}) {
