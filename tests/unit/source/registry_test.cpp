@@ -35,8 +35,13 @@ TEST(Registry, KnownKindsThatAreNotSupported) {
   constexpr const char* kRemedy =
       " is not supported by this version; convert it to VDB, NRRD or raw first";
   EXPECT_EQ(error("scan", std::string(128, '\0') + "DICM..."), std::string(": DICOM") + kRemedy);
-  EXPECT_EQ(error("a", "\x76\x2f\x31\x01..."), std::string(": OpenEXR") + kRemedy);
-  EXPECT_EQ(error("b", "\x89PNG\r\n\x1a\n"), std::string(": PNG") + kRemedy);
+#if MC_WITH_EXR
+  EXPECT_EQ(error("a", "\x76\x2f\x31\x01..."),
+            ": damaged OpenEXR file: Unable to read magic and version flags");
+#endif
+#if MC_WITH_PNG
+  EXPECT_EQ(error("b", "\x89PNG\r\n\x1a\n"), ": damaged PNG: the file ends too soon");
+#endif
   EXPECT_EQ(error("c", std::string("II*\0", 4)), std::string(": TIFF") + kRemedy);
   EXPECT_EQ(error("d", "ObjectType = Image\n"), std::string(": MetaImage") + kRemedy);
   EXPECT_EQ(error("e.nii.gz", "\x1f\x8b\x08..."), std::string(": NIfTI") + kRemedy);
