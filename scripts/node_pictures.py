@@ -83,6 +83,7 @@ SECTIONS = {
         "pingpong": ("value", node("pingpong", octaves=3, source=node("perlin", frequency=0.8))),
         "heightmap": ("value", node("heightmap", path="specs/heightmap/island.png", size=4,
                                     origin=[-2, -2], dims="xy", height=0.5)),
+        "volume": ("shape", node("neg", source=node("volume", path="specs/torus.json"))),
         "warp": ("value", node("warp", amplitude=0.5, warp=node("simplex", frequency=0.7),
                                source=node("fbm", octaves=4, source=node("perlin", frequency=0.8)))),
     },

@@ -85,11 +85,13 @@ enum class NodeType : std::uint8_t {
   offset,          ///< source; distance
   shell,           ///< source; thickness, its middle's depth below the surface
   heightmap,       ///< -; first corner (2), sizes (2), height. Also raster, wrap, filter, dims
+  volume,          ///< -; -. Also volume, outside, filter
 };
 
 /// How a picture goes on beyond its edge: its last pixels, the picture again, or its mirror image.
 enum class Wrap : std::uint8_t { clamp, repeat, mirror };
-/// What lies between samples: the nearest one, a straight line, or a Catmull-Rom spline.
+/// What lies between samples: the nearest one, a straight line, or a Catmull-Rom spline (pictures
+/// only).
 enum class Filter : std::uint8_t { nearest, linear, cubic };
 
 /// Samples that nodes read: a picture's, the top row first.
@@ -97,6 +99,14 @@ struct Raster {
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::vector<float> samples;
+};
+
+/// Samples that nodes read: a volume's, x fastest.
+struct SampledVolume {
+  Index3 dims{};
+  Affine to_index;  ///< from the world to the place among the samples; each number within +-1e100
+  std::optional<float> background{};  ///< what samples beyond it are; unset: its nearest one
+  Buffer<float> samples{};
 };
 
 /// How a curve runs from point to point: straight; by a monotone cubic; held until the next point.
@@ -129,7 +139,9 @@ struct Node {
   std::uint8_t axis = 1;      ///< 0, 1, 2: what a torus, cylinder or cone turns around
   CurveShape curve_shape = CurveShape::linear;
   std::optional<Dims> dims{};  ///< unset: of the fractal above it, else xyz (flat ones: xz)
-  std::shared_ptr<const Raster> raster{};  ///< heightmap: needed
+  std::shared_ptr<const Raster> raster{};         ///< heightmap: needed
+  std::shared_ptr<const SampledVolume> volume{};  ///< volume: needed
+  std::optional<float> outside{};  ///< volume: finite, takes the place of its background
   Wrap wrap = Wrap::clamp;
   Filter filter = Filter::linear;
   CellReturn cell_return = CellReturn::f1;

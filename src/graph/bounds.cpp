@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/bounds_data.hpp"
 #include "graph/bounds_shape.hpp"
 #include "graph/float_math.hpp"
 #include "graph/interval_math.hpp"
@@ -223,23 +224,6 @@ Interval torus(const Interval (&at)[3], const Instruction& instruction) {
   return difference({p[4], p[4]}, root(sum(square(from_ring), from(1))));
 }
 
-/// Between the least and the greatest pixel: a straight line stays there but for rounding, the
-/// spline leaves it by 9/32 of the range at most.
-Interval heights(Interval a, Interval b, const Instruction& instruction) {
-  constexpr float kRounding = 1e-5F;
-  constexpr float kMostHeight = 1e30F;  // far from overflow on the way
-  const auto& p = instruction.p;
-  const Interval u = monotone(a, [&](float v) { return (v - p[0]) * p[2]; });
-  const Interval v = monotone(b, [&](float w) { return (w - p[1]) * p[3]; });
-  const Interval pixels = between(instruction.raster->least, instruction.raster->greatest);
-  if (!u.known() || !v.known() || !pixels.known() || !(size_of(pixels) < kMostHeight)) {
-    return kUnknown;
-  }
-  const float beyond =
-      instruction.raster->filter == Filter::cubic ? 0.3F * (pixels.hi - pixels.lo) : 0.0F;
-  return product(widened(pixels, beyond + kRounding * size_of(pixels)), {p[4], p[4]});
-}
-
 }  // namespace
 
 Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interval a, Interval b,
@@ -370,7 +354,9 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
     case Op::torus:
       return torus(in, instruction);
     case Op::heightmap:
-      return heights(a, b, instruction);
+      return heightmap_bounds(instruction, in);
+    case Op::volume:
+      return volume_bounds(instruction, in);
     case Op::cylinder:
       return cylinder_bounds(instruction, in);
     case Op::cone:

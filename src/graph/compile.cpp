@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "graph/data_uses.hpp"
 #include "graph/hash.hpp"
 #include "graph/lower.hpp"
 #include "graph/reduce.hpp"
@@ -46,18 +47,18 @@ class Emitter {
 
   Value emit_root(NodeId root) { return emit(root, world_); }
   std::vector<Instruction> take() { return std::move(code_); }
-  std::vector<std::shared_ptr<const RasterUse>> take_rasters() { return std::move(rasters_); }
+  std::vector<std::shared_ptr<const DataUse>> take_data() { return data_.take(); }
 
  private:
   /// The value of an instruction: a new one, or that of an equal instruction before it.
   Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
-             std::uint32_t seed = 0, const RasterUse* raster = nullptr) {
+             std::uint32_t seed = 0, const DataUse* data = nullptr) {
     Instruction instruction{.op = op,
                             .out = static_cast<Value>(code_.size()),
                             .n_in = static_cast<std::uint8_t>(inputs.size()),
                             .seed = seed,
                             .p = p,
-                            .raster = raster};
+                            .data = data};
     std::copy(inputs.begin(), inputs.end(), instruction.in.begin());
     instruction = reduced(instruction, code_);
     if (code_.size() >= Graph::kMaxInstructions) {
@@ -108,7 +109,7 @@ class Emitter {
   Value emit_shell(const Node& node, const Domain& domain);
   Value emit_combination(const Node& node, const Domain& domain);
   Value emit_heightmap(const Node& node, const Domain& domain);
-  const RasterUse* use_of(const Node& node);
+  Value emit_volume(const Node& node, const Domain& domain);
 
   Value unary(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
     return push(op, {emit(node.inputs[0], domain)}, p);
@@ -133,8 +134,7 @@ class Emitter {
 
   const Graph& graph_;
   std::vector<Instruction> code_;
-  std::vector<std::shared_ptr<const RasterUse>> rasters_;
-  std::map<std::tuple<const Raster*, Wrap, Filter>, const RasterUse*> uses_;
+  DataUses data_;
   std::map<std::pair<NodeId, Domain>, Value> done_;
   std::map<Recipe, Value> values_;
   Domain world_;
@@ -199,6 +199,8 @@ Value Emitter::emit_new(const Node& node, const Domain& domain) {
       return emit_combination(node, domain);
     case NodeType::heightmap:
       return emit_heightmap(node, domain);
+    case NodeType::volume:
+      return emit_volume(node, domain);
     default:
       return emit_arithmetic(node, domain);
   }
@@ -547,17 +549,6 @@ Value Emitter::emit_combination(const Node& node, const Domain& domain) {
   return push(op, {a, outside_b}, node.numbers);
 }
 
-/// Least and greatest sample; NaN where one is not finite.
-std::array<float, 2> range_of(const Raster& raster) {
-  constexpr float kNan = __builtin_nanf("");
-  std::array<float, 2> range{raster.samples.front(), raster.samples.front()};
-  for (const float v : raster.samples) {
-    if (!std::isfinite(v)) return {kNan, kNan};
-    range = {std::min(range[0], v), std::max(range[1], v)};
-  }
-  return range;
-}
-
 Value Emitter::emit_heightmap(const Node& node, const Domain& domain) {
   Dims dims = node.dims.value_or(domain.dims.value_or(Dims::xz));
   if (dims == Dims::xyz) {
@@ -567,19 +558,11 @@ Value Emitter::emit_heightmap(const Node& node, const Domain& domain) {
   std::array<float, 6> p = node.numbers;
   p[2] = static_cast<float>(node.raster->width) / p[2];
   p[3] = static_cast<float>(node.raster->height) / p[3];
-  return push(Op::heightmap, {domain.at[axes[0]], domain.at[axes[1]]}, p, 0, use_of(node));
+  return push(Op::heightmap, {domain.at[axes[0]], domain.at[axes[1]]}, p, 0, data_.of(node));
 }
 
-/// How a node reads its samples: one for all that read the same in the same way.
-const RasterUse* Emitter::use_of(const Node& node) {
-  const RasterUse*& use = uses_[{node.raster.get(), node.wrap, node.filter}];
-  if (use == nullptr) {
-    const auto [least, greatest] = range_of(*node.raster);
-    rasters_.push_back(std::make_shared<const RasterUse>(
-        RasterUse{node.raster, node.wrap, node.filter, least, greatest}));
-    use = rasters_.back().get();
-  }
-  return use;
+Value Emitter::emit_volume(const Node& node, const Domain& domain) {
+  return push(Op::volume, {domain.at[0], domain.at[1], domain.at[2]}, {}, 0, data_.of(node));
 }
 
 }  // namespace
@@ -588,7 +571,7 @@ Program compile(const Graph& graph, NodeId root) {
   Emitter emitter(graph);
   const Value result = emitter.emit_root(root);
   Program program = schedule(emitter.take(), result);
-  program.rasters = emitter.take_rasters();
+  program.data = emitter.take_data();
   return program;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "base/checked.hpp"
 #include "graph/compile.hpp"
 #include "graph/program.hpp"
 
@@ -47,6 +48,7 @@ Arity arity_of(NodeType type) {
     case NodeType::ellipsoid:
     case NodeType::gyroid:
     case NodeType::heightmap:
+    case NodeType::volume:
       return {0, 0};
     case NodeType::unity_perlin2d:
       return {0, 2};
@@ -119,6 +121,28 @@ void check_raster(const Node& node) {
   }
 }
 
+void check_volume(const Node& node) {
+  constexpr double kMostFactor = 1e100;  // times float32 and added up, still a double
+  if (node.volume == nullptr) {
+    refuse("a node has no samples to read");
+  }
+  const SampledVolume& volume = *node.volume;
+  const auto n = [&](std::size_t axis) { return static_cast<std::uint64_t>(volume.dims[axis]); };
+  const bool counted =
+      std::all_of(volume.dims.begin(), volume.dims.end(), [](auto d) { return d >= 1; });
+  if (!counted || base::checked_mul(n(0), n(1), n(2)) != volume.samples.size()) {
+    refuse("a volume's dims are not those of its " + std::to_string(volume.samples.size()) +
+           " samples");
+  }
+  const auto& m = volume.to_index.m;
+  if (!std::all_of(m.begin(), m.end(), [](double v) { return std::abs(v) <= kMostFactor; })) {
+    refuse("a volume's map has numbers past +-1e100");
+  }
+  if (node.filter == Filter::cubic || !std::isfinite(node.outside.value_or(0))) {
+    refuse("a volume has the filters nearest and linear, and finite numbers outside");
+  }
+}
+
 void check_node(const Node& node) {
   const Arity arity = arity_of(node.type);
   const std::size_t n = node.inputs.size();
@@ -143,6 +167,8 @@ void check_node(const Node& node) {
   }
   if (node.type == NodeType::heightmap) {
     check_raster(node);
+  } else if (node.type == NodeType::volume) {
+    check_volume(node);
   }
 }
 

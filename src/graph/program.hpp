@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -79,7 +80,8 @@ enum class Op : std::uint8_t {
   capsule,    // from the origin along b; p0 length, p1, p2 radii, p3, p4 slope: sine and cosine
   ellipsoid,  // p as Node::numbers
   gyroid,     // p0..p2 centre, p3 radians a unit
-  heightmap,  // coordinates a, b; p as Node::numbers, but pixels a unit for sizes; raster
+  heightmap,  // coordinates a, b; p as Node::numbers, but pixels a unit for sizes; data
+  volume,     // coordinates a, b, c; data
   copy,       // a; of pruned programs only
 };
 
@@ -87,11 +89,13 @@ enum class Op : std::uint8_t {
 using Value = std::uint32_t;
 
 /// Samples, and how a node reads them. Its pointer is what an instruction holds.
-struct RasterUse {
-  std::shared_ptr<const Raster> raster;
+struct DataUse {
+  std::shared_ptr<const Raster> raster;         ///< of a heightmap
+  std::shared_ptr<const SampledVolume> volume;  ///< of a volume
   Wrap wrap = Wrap::clamp;
   Filter filter = Filter::linear;
-  float least = 0;  ///< of the samples; NaN where one is not finite
+  std::optional<float> outside;  ///< what samples beyond a volume are; unset: its nearest one
+  float least = 0;               ///< of all of these; NaN where one is not finite
   float greatest = 0;
 };
 
@@ -102,7 +106,7 @@ struct Instruction {
   std::uint8_t n_in = 0;
   std::uint32_t seed = 0;
   std::array<float, 6> p{};
-  const RasterUse* raster = nullptr;  ///< one of Program::rasters
+  const DataUse* data = nullptr;  ///< one of Program::data
 };
 
 /// Samples are computed in pieces of this many, so that registers stay in the cache.
@@ -115,7 +119,7 @@ struct Program {
   std::vector<std::uint32_t> homes;  ///< of each value: the register that holds it
   std::uint32_t n_registers = 0;
   Value result = 0;
-  std::vector<std::shared_ptr<const RasterUse>> rasters;  ///< what instructions point to
+  std::vector<std::shared_ptr<const DataUse>> data;  ///< what instructions point to
 
   /// What is run once a column of samples, and what for each of them.
   [[nodiscard]] std::span<const Instruction> flat() const { return std::span(code).first(n_flat); }

@@ -54,7 +54,7 @@ float value_of(const Instruction& instruction, const std::vector<Instruction>& c
 
 Recipe recipe_of(const Instruction& instruction) {
   return {instruction.op, instruction.in, instruction.seed,
-          std::bit_cast<std::array<std::uint32_t, 6>>(instruction.p), instruction.raster};
+          std::bit_cast<std::array<std::uint32_t, 6>>(instruction.p), instruction.data};
 }
 
 Instruction reduced(const Instruction& instruction, const std::vector<Instruction>& code) {

@@ -16,7 +16,7 @@ struct Recipe {
   std::array<Value, 3> in;
   std::uint32_t seed;
   std::array<std::uint32_t, 6> bits;
-  const RasterUse* raster;
+  const DataUse* data;
 
   auto operator<=>(const Recipe&) const = default;
 };

@@ -38,6 +38,8 @@ void any_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,
       return solid_row(instruction, a, b, c, n, out);
     case Op::heightmap:
       return heightmap_row(instruction, a, b, n, out);
+    case Op::volume:
+      return volume_row(instruction, a, b, c, n, out);
     default:
       return arithmetic_row(instruction, a, b, c, n, out);
   }

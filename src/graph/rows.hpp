@@ -47,6 +47,10 @@ void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size
 void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
                    OutRow out) noexcept;
 
+/// A volume at places of the world; an integer index is a sample's own place.
+void volume_row(const Instruction& instruction, Row x, Row y, Row z, std::size_t n,
+                OutRow out) noexcept;
+
 /// White noise, and values blended between lattice points; the range is [-1, 1].
 /// Source   Perlin's fade; Catmull and Rom, "A class of local interpolating splines", 1974.
 void value_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t n,

@@ -5,7 +5,7 @@
 #include "graph/float_math.hpp"
 #include "graph/rows.hpp"
 
-// Nodes that read samples. Texture rules: a picture of n pixels covers [0, n], the centre of pixel
+// Nodes that read pictures. Texture rules: a picture of n pixels covers [0, n], the centre of pixel
 // i is at i + 1/2. Source   Catmull and Rom, "A class of local interpolating splines", 1974 (the
 // cubic filter).
 
@@ -70,7 +70,7 @@ struct Taps {
 template <int kTaps>
 void picture_row(const Instruction& instruction, Row u, Row v, std::size_t n, OutRow out) noexcept {
   const auto& p = instruction.p;
-  const RasterUse& use = *instruction.raster;
+  const DataUse& use = *instruction.data;
   const Raster& raster = *use.raster;
   const float* pixels = raster.samples.data();
   for (std::size_t i = 0; i < n; ++i) {
@@ -97,7 +97,7 @@ void picture_row(const Instruction& instruction, Row u, Row v, std::size_t n, Ou
 
 void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
                    OutRow out) noexcept {
-  switch (instruction.raster->filter) {
+  switch (instruction.data->filter) {
     case Filter::nearest:
       return picture_row<1>(instruction, u, v, n, out);
     case Filter::linear:

@@ -100,6 +100,14 @@ void order_series(std::vector<std::string>& paths) {
 
 }  // namespace
 
+void check_regular(const std::string& path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+    throw Error(ErrorKind::input, path, "is no regular file");
+  }
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   if (!extension.empty()) {

@@ -24,6 +24,10 @@ struct InputFiles {
 ///          several inputs, "-" among several inputs.
 InputFiles expand_inputs(std::span<const std::string> inputs, Progress& progress);
 
+/// For files that a document names: opening others may wait for ever.
+/// Errors   input: a FIFO or a device. What is not there is no error.
+void check_regular(const std::string& path);
+
 /// The extension in lower case without its dot, empty where there is none.
 std::string extension_of(const std::string& path);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "source/input_files.hpp"
 #include "source/mapped_file.hpp"
 #include "source/nrrd/nrrd.hpp"
+#include "source/open_named.hpp"
 #include "source/placement.hpp"
 #include "source/raw/raw.hpp"
 #include "source/spec/spec.hpp"
@@ -160,7 +162,7 @@ std::unique_ptr<SlabReader> open_pictures(const InputFiles& inputs, Decision dec
 }
 
 Source open_decided(const InputFiles& inputs, Decision decision, const SourceOptions& options,
-                    Progress& progress) {
+                    Progress& progress, const SpecNesting& within = {}) {
   Source source;
   source.place = inputs.place;
   switch (decision.format) {
@@ -176,7 +178,7 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
     case Format::spec: {
       // From the bytes that told what it is: a FIFO gives them once.
       std::unique_ptr<SlabReader> spec =
-          open_spec_text(decision.file->place(), decision.file->text());
+          open_spec_text(decision.file->place(), decision.file->text(), within);
       source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
       break;
     }
@@ -190,7 +192,38 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
   return source;
 }
 
+/// What a document's volume is: it has to say that, and its sizes, itself.
+Decision decide_without_options(const InputFiles& inputs) {
+  try {
+    Decision decision = decide(inputs, {});
+    if (decision.format != Format::raw) {
+      return decision;
+    }
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::usage) {
+      throw;
+    }
+  }
+  throw Error(ErrorKind::input, inputs.place, "does not say what volume it is",
+              "give raw data a NRRD header (.nhdr) and name that");
+}
+
 }  // namespace
+
+Source open_named(const std::string& path, const std::optional<std::string>& grid,
+                  const SpecNesting& within) {
+  const InputFiles inputs = expand_inputs({&path, 1}, silent_progress());
+  std::ranges::for_each(inputs.paths, check_regular);
+  Decision decision = decide_without_options(inputs);
+  if (grid && decision.format != Format::vdb) {
+    throw Error(ErrorKind::input, path,
+                fmt::format("{} has no grids by name", display_name(decision.format)),
+                "leave out \"grid\"");
+  }
+  SourceOptions options;
+  options.grid = grid;
+  return open_decided(inputs, std::move(decision), options, silent_progress(), within);
+}
 
 }  // namespace mc::source
 

@@ -33,7 +33,7 @@ CORPUS_BEYOND = {
     "warps.json", "lone-surrogate.json",
 }
 
-NEEDS_A_FILE = {"heightmap"}  # which the corpus does not have; data/specs has
+NEEDS_A_FILE = {"heightmap", "volume"}  # which the corpus does not have; data/specs has
 
 
 def parsed(text):

@@ -9,6 +9,20 @@
 
 namespace mc::source {
 
+namespace {
+
+/// Runs `read`, which may throw an Error of the file that `at` names.
+template <class F>
+void read_file(const JsonDocument& document, const JsonValue& at, F&& read) {
+  try {
+    read();
+  } catch (const Error& error) {
+    document.fault(at, std::string("cannot be read: ") + error.what());
+  }
+}
+
+}  // namespace
+
 void NodeLoader::fill_heightmap(Node& node, ObjectReader& keys) {
   const auto number = [](double v) { return static_cast<float>(v); };
   const std::optional<std::string> path = keys.text("path", false);
@@ -25,11 +39,21 @@ void NodeLoader::fill_heightmap(Node& node, ObjectReader& keys) {
     keys.optional("dims");
   }
   if (!path) return;
-  try {
-    node.raster = files_.picture(*path, channel);
-  } catch (const Error& error) {
-    document_.fault(*keys.value().find("path"), std::string("cannot be read: ") + error.what());
+  read_file(document_, *keys.value().find("path"),
+            [&] { node.raster = files_.picture(*path, channel); });
+}
+
+void NodeLoader::fill_volume(Node& node, ObjectReader& keys) {
+  const std::optional<std::string> path = keys.text("path", false);
+  const std::optional<std::string> grid = keys.text("grid", true);
+  const double outside = keys.number("outside", 0, kAnyFloat);
+  if (keys.value().find("outside") != nullptr) {
+    node.outside = static_cast<float>(outside);
   }
+  node.filter = Filter(keys.choice("filter", 1, {"nearest", "linear"}));
+  if (!path) return;
+  read_file(document_, *keys.value().find("path"),
+            [&] { node.volume = files_.volume(*path, grid); });
 }
 
 }  // namespace mc::source

@@ -113,7 +113,7 @@ GraphField compile(const JsonDocument& document, const Graph& graph, NodeId root
 
 }  // namespace
 
-SpecDocument load_spec(const std::string& place, std::string_view text) {
+SpecDocument load_spec(const std::string& place, std::string_view text, const SpecNesting& within) {
   Faults faults(place, text);
   const std::optional<JsonValue> root = parse_json(faults);
   if (!root) {
@@ -132,7 +132,7 @@ SpecDocument load_spec(const std::string& place, std::string_view text) {
   const auto border = Border(keys.choice("border", 0, {"open", "closed", "solid"}));
   const JsonValue* grid_value = keys.required("grid");
   const Grid grid = grid_value == nullptr ? Grid{} : read_grid(document, *grid_value);
-  SpecFiles files(place);
+  SpecFiles files(place, within);
   NodeLoader nodes(document, keys.optional("nodes"), settings, files);
   const JsonValue* field = keys.required("field");
   const NodeId top = field == nullptr ? NodeId{} : nodes.load(*field);

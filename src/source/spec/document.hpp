@@ -6,6 +6,7 @@
 
 #include "mc/field.hpp"
 #include "mc/graph.hpp"
+#include "source/spec/spec_files.hpp"
 
 namespace mc::source {
 
@@ -17,7 +18,7 @@ struct SpecDocument {
   GraphField field;
 };
 
-/// Errors: usage, with every fault of the document.
-SpecDocument load_spec(const std::string& place, std::string_view text);
+/// Errors   usage, with every fault of the document; those of SpecFiles.
+SpecDocument load_spec(const std::string& place, std::string_view text, const SpecNesting& within);
 
 }  // namespace mc::source

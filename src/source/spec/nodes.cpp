@@ -76,6 +76,7 @@ const std::map<std::string, NodeType, std::less<>>& node_types() {
       {"offset", NodeType::offset},
       {"shell", NodeType::shell},
       {"heightmap", NodeType::heightmap},
+      {"volume", NodeType::volume},
       {"x", NodeType::x},
       {"y", NodeType::y},
       {"z", NodeType::z},
@@ -349,6 +350,8 @@ void NodeLoader::fill(Node& node, ObjectReader& keys, const std::string& name) {
       return fill_shell(node, keys);
     case NodeType::heightmap:
       return fill_heightmap(node, keys);
+    case NodeType::volume:
+      return fill_volume(node, keys);
     default:
       take_input(node, keys, "source");
       return fill_shaping(node, keys);

@@ -53,6 +53,7 @@ class NodeLoader {
   void fill_steps(Node& node, ObjectReader& keys);
   void fill_transform(Node& node, ObjectReader& keys, const std::string& name);
   void fill_heightmap(Node& node, ObjectReader& keys);
+  void fill_volume(Node& node, ObjectReader& keys);
   void fill_repeat(Node& node, ObjectReader& keys);
   void take_input(Node& node, ObjectReader& keys, const char* key);
   void take_inputs(Node& node, ObjectReader& keys);

@@ -64,8 +64,9 @@ class SpecReader final : public SlabReader {
 
 }  // namespace
 
-std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text) {
-  return std::make_unique<SpecReader>(load_spec(place, text));
+std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text,
+                                           const SpecNesting& within) {
+  return std::make_unique<SpecReader>(load_spec(place, text, within));
 }
 
 bool looks_like_spec(std::string_view head) {

@@ -6,15 +6,19 @@
 #include <string_view>
 
 #include "mc/field.hpp"
+#include "source/spec/spec_files.hpp"
 
 // Procedural volumes: JSON documents of the format mc-volume, see mc-volume(5).
 
 namespace mc::source {
 
-/// Opens a document; `place` is how messages name it. The whole document is checked before this
-/// returns; samples are computed as they are read. Errors   usage: every fault of the document, a
-/// line each. Cost     read() takes O(samples * nodes), one thread a call.
-std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text);
+/// Opens a document; `place` is how messages name it. The whole document is checked, and the files
+/// that it names are read, before this returns; samples are computed as they are read.
+/// Errors   usage: every fault of the document, a line each; as SpecFiles where it is within
+///          others.
+/// Cost     read() takes O(samples * nodes), one thread a call.
+std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text,
+                                           const SpecNesting& within = {});
 
 /// Whether the first bytes of a file look like such a document, damaged ones included.
 [[nodiscard]] bool looks_like_spec(std::string_view head);

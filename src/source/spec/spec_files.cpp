@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "source/spec/spec_files.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "base/checked.hpp"
 #include "field/visit_type.hpp"
 #include "mc/base.hpp"
 #include "source/image/open_image.hpp"
+#include "source/input_files.hpp"
 #include "source/mapped_file.hpp"
+#include "source/open_named.hpp"
+#include "source/spec/read_volume.hpp"
 
-// Pictures become float32 when they are loaded: a sample then costs no conversion.
+// Samples become float32 when they are loaded: reading one then costs no conversion.
 
 namespace mc::source {
 
@@ -38,38 +43,63 @@ std::vector<float> brightnesses(const Buffer<std::byte>& bytes, SampleType type)
   return out;
 }
 
-/// Opened without waiting: a FIFO or a device may never answer.
-MappedFile open_regular(const std::string& path) {
-  std::error_code ignored;
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-    throw Error(ErrorKind::input, path, "is no regular file");
+/// One name for all ways to write a path.
+std::string whole_path(const std::string& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(path, error);
+  return error ? path : whole.string();
+}
+
+/// Every sample of a volume's box, which a sparse one has where it is active.
+std::uint64_t count_samples(const Lattice& lattice, const std::string& place) {
+  std::optional<std::uint64_t> count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::int64_t n = lattice.box.extent(axis);
+    if (n < 1) {
+      throw Error(ErrorKind::input, place, "has no active samples");
+    }
+    count = count ? base::checked_mul(*count, static_cast<std::uint64_t>(n)) : count;
   }
-  return MappedFile(path);
+  return count.value_or(std::numeric_limits<std::uint64_t>::max());
 }
 
 }  // namespace
 
-SpecFiles::SpecFiles(const std::string& document)
-    : folder_(fs::path(document).parent_path().string()) {}
+SpecFiles::SpecFiles(const std::string& document, const SpecNesting& within)
+    : folder_(fs::path(document).parent_path().string()), inside_(within) {
+  const std::string path = whole_path(document);
+  if (std::ranges::find(inside_.open, path) != inside_.open.end()) {
+    throw Error(ErrorKind::usage, document, "closes a ring of documents",
+                "name volumes that do not need this one");
+  }
+  if (inside_.open.size() >= SpecNesting::kMostDocuments) {
+    throw Error(ErrorKind::limit, document,
+                "is one more than the " + std::to_string(SpecNesting::kMostDocuments) +
+                    " documents that may stand in each other",
+                "sample one of them to a file");
+  }
+  inside_.open.push_back(path);
+}
 
 std::string SpecFiles::resolved(const std::string& path) const {
   return (fs::path(folder_) / path).string();
 }
 
 void SpecFiles::take(std::uint64_t n_samples, const std::string& place) {
-  if (n_samples > left_) {
-    throw Error(
-        ErrorKind::limit, place,
-        "brings the samples that this document reads above " + std::to_string(kMostSamples));
+  if (n_samples > inside_.left) {
+    throw Error(ErrorKind::limit, place,
+                "brings the samples that this document reads above " +
+                    std::to_string(SpecNesting::kMostSamples));
   }
-  left_ -= n_samples;
+  inside_.left -= n_samples;
 }
 
 std::shared_ptr<const Raster> SpecFiles::picture(const std::string& path,
                                                  const std::optional<std::string>& channel) {
   const Key key{resolved(path), channel};
   if (const auto known = pictures_.find(key); known != pictures_.end()) return known->second;
-  const MappedFile file = open_regular(key.first);
+  check_regular(key.first);
+  const MappedFile file(key.first);
   const std::optional<Format> format = format_of_content(file.text());
   if (!format || !is_image(*format)) {
     throw Error(ErrorKind::input, key.first, "is neither a PNG nor an OpenEXR picture");
@@ -92,6 +122,20 @@ std::shared_ptr<const Raster> SpecFiles::picture(const std::string& path,
   raster->height = part.height;
   raster->samples = brightnesses(bytes, type);
   return pictures_.emplace(key, std::move(raster)).first->second;
+}
+
+std::shared_ptr<const SampledVolume> SpecFiles::volume(const std::string& path,
+                                                       const std::optional<std::string>& grid) {
+  if (path == "-") {
+    throw Error(ErrorKind::usage, "", "stdin cannot be a volume of a document", "name a file");
+  }
+  const std::string place = resolved(path);
+  const Key key{whole_path(place), grid};
+  if (const auto known = volumes_.find(key); known != volumes_.end()) return known->second;
+  const Source source = open_named(place, grid, inside_);
+  take(count_samples(volume_of(source.reader).lattice, place), place);
+  auto samples = std::make_shared<const SampledVolume>(read_volume(source.reader, place));
+  return volumes_.emplace(key, std::move(samples)).first->second;
 }
 
 }  // namespace mc::source

@@ -7,28 +7,41 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "mc/graph.hpp"
 
-// The files that an mc-volume document names: pictures.
+// The files that an mc-volume document names: pictures and volumes.
 
 namespace mc::source {
 
-class SpecFiles {
- public:
+/// What a document that is read as another one's volume stands in.
+struct SpecNesting {
   /// Samples that the files of one document may have together: 1 GiB of float32.
   static constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 28;
+  static constexpr std::size_t kMostDocuments = 8;
 
+  std::vector<std::string> open{};  ///< the documents around it, as whole paths, outermost first
+  std::uint64_t left = kMostSamples;
+};
+
+class SpecFiles {
+ public:
   /// `document` is the document's own path: names in it are relative to its folder.
-  explicit SpecFiles(const std::string& document);
+  /// Errors   usage: `within` holds it already; limit: it is one more than kMostDocuments.
+  SpecFiles(const std::string& document, const SpecNesting& within);
 
   /// One channel of a picture, top row first. PNG numbers are divided by the greatest of their
   /// type, so that white is 1; EXR numbers are taken as they are. A picture that is named again is
-  /// read once. Errors   input: missing, no picture, damaged, no such channel; limit: more samples
-  /// than
-  ///          kMostSamples.
+  /// read once.
+  /// Errors   input: missing, no picture, damaged, no such channel; limit: more than kMostSamples.
   std::shared_ptr<const Raster> picture(const std::string& path,
                                         const std::optional<std::string>& channel);
+
+  /// A volume of any kind, made dense. One that is named again is read once.
+  /// Errors   those of open_named() and read_volume(); usage: stdin; limit: more than kMostSamples.
+  std::shared_ptr<const SampledVolume> volume(const std::string& path,
+                                              const std::optional<std::string>& grid);
 
  private:
   using Key = std::pair<std::string, std::optional<std::string>>;
@@ -37,8 +50,9 @@ class SpecFiles {
   void take(std::uint64_t n_samples, const std::string& place);
 
   std::string folder_;
-  std::uint64_t left_ = kMostSamples;
+  SpecNesting inside_;  ///< what this document's own volumes stand in
   std::map<Key, std::shared_ptr<const Raster>> pictures_;
+  std::map<Key, std::shared_ptr<const SampledVolume>> volumes_;
 };
 
 }  // namespace mc::source
