@@ -32,8 +32,10 @@ EncodeImage encoder(const std::string& /*place*/) { return mc_encode_image; }
 
 }  // namespace
 
-void encode_image(ImageKind kind, const std::string& place, const Picture& picture,
-                  const SliceOf& slice, const SinkOptions& options, Buffer<std::byte>& out) {
+void encode_image(ImageKind kind, const std::string& place, [[maybe_unused]] const Picture& picture,
+                  [[maybe_unused]] const SliceOf& slice,
+                  [[maybe_unused]] const SinkOptions& options,
+                  [[maybe_unused]] Buffer<std::byte>& out) {
   const bool exr = kind == ImageKind::exr;
 #if MC_WITH_PNG || MC_WITH_EXR
   if (exr ? MC_WITH_EXR : MC_WITH_PNG) return encoder(place)(kind, picture, slice, options, out);
