@@ -51,7 +51,7 @@ TEST(Corpus, Exr) {
   EXPECT_EQ(
       readable("exr", [](auto bytes) { return test::open_and_decode(source::Format::exr, bytes); }),
       (std::vector<std::string>{"parts_uint.exr", "scan_half_zip.exr", "tiles_float.exr",
-                                "zip_called_b44.exr"}));  // to B44 any bytes are half numbers
+                                "zip_called_b44.exr"}));  // by chance whole B44 blocks
 }
 #endif
 
