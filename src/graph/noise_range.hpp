@@ -30,7 +30,7 @@ struct NoiseRange {
 /// Bounds of a noise over all coordinates that are numbers; a coordinate that is NaN gives NaN.
 /// They hold for the rounded values: formulas whose exact range is [-1, 1] to 1e-5 may pass it.
 [[nodiscard]] inline NoiseRange noise_range(const Instruction& instruction) noexcept {
-  constexpr float kOne = 1.0F + 0x1p-10F;
+  constexpr float kOne = 1.0F + 0x1p-16F;
   switch (instruction.op) {
     case Op::unity2:  // gradients of the z = 0 slice: |n| <= 1
       return {(-kOne + 0.69F) / 1.483F, (kOne + 0.69F) / 1.483F};
