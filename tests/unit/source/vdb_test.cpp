@@ -7,12 +7,12 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointDataGrid.h>
 
-#include <chrono>
 #include <map>
 #include <random>
 #include <sstream>
 
 #include "support/source_files.hpp"
+#include "support/vdb_grids.hpp"
 
 // Files are written here with OpenVDB and read through the port; what leaves, tiles and background
 // say together must be what OpenVDB's own accessor says, sample by sample.
@@ -24,11 +24,6 @@ using test::error_of_open;
 using test::Folder;
 using test::leaves;
 using test::open;
-
-void write(const std::string& path, const openvdb::GridPtrVec& grids) {
-  openvdb::io::File file(path);
-  file.write(grids);
-}
 
 /// The port as one lookup.
 class Lookup {
@@ -86,36 +81,13 @@ int differences(const LeafReader& reader, const GridT& grid, const Index3& lo, c
   return n;
 }
 
-/// Noise in a box across the origin, some of it inactive, and an active and an inactive tile
-/// beside.
-template <class GridT>
-typename GridT::Ptr noise(typename GridT::ValueType background) {
-  using Value = typename GridT::ValueType;
-  auto grid = GridT::create(background);
-  auto accessor = grid->getAccessor();
-  std::mt19937 random(7);
-  for (int n = 0; n < 3000; ++n) {
-    const auto pick = [&] { return static_cast<int>(random() % 30U) - 12; };
-    const openvdb::Coord at(pick(), pick(), pick());
-    const auto value = static_cast<Value>(random() % (std::is_same_v<Value, bool> ? 2U : 50U));
-    if (random() % 3U == 0) {
-      accessor.setValueOff(at, value);
-    } else {
-      accessor.setValueOn(at, value);
-    }
-  }
-  grid->tree().addTile(1, {-40, 0, 8}, static_cast<Value>(1), true);
-  grid->tree().addTile(1, {-40, 8, 8}, static_cast<Value>(1), false);
-  return grid;
-}
-
 template <class GridT>
 void expect_round_trip(SampleType type, typename GridT::ValueType background) {
   openvdb::initialize();
   const Folder folder;
-  auto grid = noise<GridT>(background);
+  auto grid = test::noise_grid<GridT>(background);
   grid->setName("n");
-  write(folder.path("n.vdb"), {grid});
+  test::write_grids(folder.path("n.vdb"), {grid});
   const Source source = open({folder.path("n.vdb")});
   const LeafReader& reader = leaves(source);
   EXPECT_EQ(reader.volume().type, type);
@@ -208,7 +180,7 @@ TEST(Vdb, MasksAreTheirActiveSamples) {
   grid->tree().setValueOn({1, 2, 3});
   grid->tree().setValueOn({100, 2, 3});
   grid->tree().addTile(1, {-8, -8, -8}, true, true);
-  write(folder.path("m.vdb"), {grid});
+  test::write_grids(folder.path("m.vdb"), {grid});
   const Source source = open({folder.path("m.vdb")});
   EXPECT_EQ(volume_of(source.reader).type, SampleType::u8);
   EXPECT_EQ(volume_of(source.reader).cls, VolumeClass::mask);
@@ -221,7 +193,7 @@ TEST(Vdb, NumbersAreNotCopied) {
   const Folder folder;
   auto grid = openvdb::FloatGrid::create(0);
   grid->tree().setValueOn({1, 2, 3}, 9);
-  write(folder.path("f.vdb"), {grid});
+  test::write_grids(folder.path("f.vdb"), {grid});
   const Source source = open({folder.path("f.vdb")});
   std::array<std::byte, 4096> scratch{};
   const std::byte* values = leaves(source).leaf_values(0, scratch.data());
@@ -234,9 +206,9 @@ TEST(Vdb, NumbersAreNotCopied) {
 TEST(Vdb, HalfIsWidenedAndSaidSo) {
   openvdb::initialize();
   const Folder folder;
-  auto grid = noise<openvdb::FloatGrid>(3);
+  auto grid = test::noise_grid<openvdb::FloatGrid>(3);
   grid->setSaveFloatAsHalf(true);
-  write(folder.path("h.vdb"), {grid});
+  test::write_grids(folder.path("h.vdb"), {grid});
   const Source source = open({folder.path("h.vdb")});
   EXPECT_EQ(volume_of(source.reader).type, SampleType::f32);
   EXPECT_EQ(volume_of(source.reader).stored_as, "half");
@@ -256,7 +228,7 @@ TEST(Vdb, TilesOfEveryLevel) {
   tree.addTile(2, {-256, 0, 0}, 5, false);
   tree.addTile(3, {4096, 0, 0}, 6, false);
   tree.addTile(3, {-8192, 4096, 0}, 7, true);
-  write(folder.path("t.vdb"), {grid});
+  test::write_grids(folder.path("t.vdb"), {grid});
   const Source source = open({folder.path("t.vdb")});
   std::map<Index3, std::tuple<int, float, bool>> tiles;
   for (const Tile& tile : leaves(source).tiles()) {
@@ -278,7 +250,7 @@ TEST(Vdb, WithoutActiveSamplesTheBoxIsAllThatIsStored) {
   auto grid = openvdb::FloatGrid::create(1);
   grid->tree().setValueOff({1, 2, 3}, -1);
   grid->tree().addTile(1, {-8, 0, 0}, 2, false);
-  write(folder.path("i.vdb"), {grid});
+  test::write_grids(folder.path("i.vdb"), {grid});
   const Volume volume = volume_of(open({folder.path("i.vdb")}).reader);
   EXPECT_EQ(volume.n_active, 0U);
   EXPECT_EQ(volume.lattice.box, (IndexBox{{-8, 0, 0}, {7, 7, 7}}));
@@ -290,7 +262,7 @@ void expect_placed_as(const openvdb::math::Transform::Ptr& transform) {
   auto grid = openvdb::FloatGrid::create(0);
   grid->tree().setValueOn({0, 0, 0}, 1);
   grid->setTransform(transform);
-  write(folder.path("p.vdb"), {grid});
+  test::write_grids(folder.path("p.vdb"), {grid});
   const Affine map = volume_of(open({folder.path("p.vdb")}).reader).lattice.to_world;
   for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-3, 5, 7}}) {
     const openvdb::Vec3d expected = transform->indexToWorld(openvdb::Vec3d(p[0], p[1], p[2]));
@@ -328,7 +300,7 @@ TEST(Vdb, ProjectiveMapsAreDamage) {
   grid->tree().setValueOn({0, 0, 0}, 1);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(
       openvdb::Mat4d(2, 0, 0, 0, 1, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1)));
-  write(folder.path("whole.vdb"), {grid});
+  test::write_grids(folder.path("whole.vdb"), {grid});
   std::string bytes = test::read_bytes(folder.path("whole.vdb"));
   const std::size_t at = bytes.find("AffineMap");
   ASSERT_NE(at, std::string::npos);
@@ -345,7 +317,7 @@ TEST(Vdb, PlacementOptionsOverride) {
   auto grid = openvdb::FloatGrid::create(0);
   grid->tree().setValueOn({0, 0, 0}, 1);
   grid->setTransform(openvdb::math::Transform::createLinearTransform(0.1));
-  write(folder.path("p.vdb"), {grid});
+  test::write_grids(folder.path("p.vdb"), {grid});
   SourceOptions options;
   options.spacing = Vec3{1, 2, 3};
   options.origin = Vec3{4, 5, 6};
@@ -367,7 +339,7 @@ TEST(Vdb, RefusesWhatCannotBeMeshed) {
   auto empty = openvdb::FloatGrid::create(2);
   empty->setName("void");
   const std::string file = folder.path("r.vdb");
-  write(file, {vec, frustum, empty});
+  test::write_grids(file, {vec, frustum, empty});
   SourceOptions options;
   EXPECT_EQ(error_of_open({file}),  // the first scalar one
             "3 " + file +
@@ -402,7 +374,7 @@ TEST(Vdb, OtherTreesAreRefusedByName) {
   grid->setName("small");
   grid->tree().setValueOn({0, 0, 0}, 1.F);
   Small::registerGrid();
-  write(file, {grid});
+  test::write_grids(file, {grid});
   Small::unregisterGrid();
   EXPECT_EQ(error_of_open({file}),
             "3 " + file +
@@ -421,7 +393,7 @@ TEST(Vdb, GridsByNameNumberAndPosition) {
     grids.push_back(grid);
   }
   const std::string file = folder.path("g.vdb");
-  write(file, grids);
+  test::write_grids(file, grids);
   const auto value = [&](std::optional<std::string> wanted) {
     SourceOptions options;
     options.grid = std::move(wanted);
@@ -443,7 +415,7 @@ TEST(Vdb, GridsByNameNumberAndPosition) {
 TEST(Vdb, SharedTreesAndStreamsWithoutOffsets) {
   openvdb::initialize();
   const Folder folder;
-  auto a = noise<openvdb::FloatGrid>(3);
+  auto a = test::noise_grid<openvdb::FloatGrid>(3);
   a->setName("a");
   auto b = a->copyWithNewTree();  // then given a's own tree, which is written once
   b->setTree(a->treePtr());
@@ -452,7 +424,7 @@ TEST(Vdb, SharedTreesAndStreamsWithoutOffsets) {
   auto c = openvdb::Vec3SGrid::create();
   c->setName("c");
   const openvdb::GridPtrVec grids{c, a, b};
-  write(folder.path("shared.vdb"), grids);
+  test::write_grids(folder.path("shared.vdb"), grids);
   std::ostringstream stream(std::ios::binary);
   openvdb::io::Stream(stream).write(grids);
   const std::string streamed = folder.file("streamed.vdb", stream.str());
@@ -470,9 +442,9 @@ TEST(Vdb, SharedTreesAndStreamsWithoutOffsets) {
 TEST(Vdb, StreamsArePassedOverAsFarAsTheyCanBe) {
   openvdb::initialize();
   const Folder folder;
-  auto scalar = noise<openvdb::FloatGrid>(3);
+  auto scalar = test::noise_grid<openvdb::FloatGrid>(3);
   scalar->setName("s");
-  auto bits = noise<openvdb::BoolGrid>(false);
+  auto bits = test::noise_grid<openvdb::BoolGrid>(false);
   bits->setName("b");
   auto frustum = openvdb::FloatGrid::create(0);
   frustum->setTransform(openvdb::math::Transform::createFrustumTransform(
@@ -505,7 +477,7 @@ TEST(Vdb, ClassesOfGrids) {
     auto grid = openvdb::FloatGrid::create(1);
     grid->setGridClass(stored);
     grid->tree().setValueOn({0, 0, 0}, 0.5F);
-    write(folder.path("c.vdb"), {grid});
+    test::write_grids(folder.path("c.vdb"), {grid});
     const Volume volume = volume_of(open({folder.path("c.vdb")}).reader);
     EXPECT_EQ(volume.cls, expected);
     EXPECT_EQ(volume.units, Units::m);
@@ -518,161 +490,10 @@ TEST(Vdb, RawsOptionsAreUsage) {
   const Folder folder;
   const std::string file = folder.path("c.vdb");
   auto grid = openvdb::FloatGrid::create(1);
-  write(file, {grid});
+  test::write_grids(file, {grid});
   SourceOptions options;
   options.dims = {2, 2, 2};
   EXPECT_EQ(error_of_open({file}, options), "2 --dims: is for raw data, but " + file + " is VDB");
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-std::string noise_file(const Folder& folder) {
-  auto noisy = noise<openvdb::FloatGrid>(3);
-  auto vec = openvdb::Vec3SGrid::create();
-  vec->setName("vel");
-  vec->tree().setValueOn({0, 0, 0}, openvdb::Vec3s(1));
-  noisy->setName("n");
-  noisy->insertMeta("author", openvdb::StringMetadata("nobody"));
-  write(folder.path("whole.vdb"), {noisy, vec});
-  return test::read_bytes(folder.path("whole.vdb"));
-}
-
-TEST(VdbDamaged, EveryCutIsAnInputErrorAndQuick) {
-  openvdb::initialize();
-  const Folder folder;
-  const std::string bytes = noise_file(folder);
-  for (std::size_t n = 0; n < 50; ++n) {
-    // Half of the cuts go through the first KiB, where the headers are.
-    const std::size_t at = n < 25 ? 1 + n * 40 : 1001 + (n - 25) * (bytes.size() - 1002) / 24;
-    const std::string file = folder.file("cut.vdb", std::string_view(bytes).substr(0, at));
-    const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(error_of_open({file}).substr(0, 2 + file.size()), "3 " + file) << at;
-    EXPECT_LT(seconds_since(start), 2.0) << at;
-  }
-}
-
-TEST(VdbDamaged, FlippedBytesNeverCrash) {
-  openvdb::initialize();
-  const Folder folder;
-  const std::string bytes = noise_file(folder);
-  std::mt19937 random(11);
-  int n_errors = 0;
-  for (int n = 0; n < 120; ++n) {
-    std::string flipped = bytes;
-    const std::size_t within = n % 2 == 0 ? 1500 : bytes.size();
-    flipped[random() % within] = static_cast<char>(random());
-    const std::string file = folder.file("flipped.vdb", flipped);
-    const auto start = std::chrono::steady_clock::now();
-    const std::string error = error_of_open({file});
-    EXPECT_TRUE(error == "no error" || error[0] == '3' || error[0] == '6') << error;
-    EXPECT_LT(seconds_since(start), 2.0) << n;
-    n_errors += error == "no error" ? 0 : 1;
-  }
-  EXPECT_GT(n_errors, 0);
-}
-
-TEST(VdbDamaged, LengthsThatTheFileDoesNotHold) {
-  openvdb::initialize();
-  const Folder folder;
-  std::string bytes = noise_file(folder);
-  // The length of the first grid's unique name follows the header, no file metadata, and the count.
-  const std::size_t at = bytes.find(std::string("\1\0\0\0n", 5));
-  ASSERT_NE(at, std::string::npos);
-  bytes[at + 3] = '\x7F';
-  const std::string file = folder.file("long.vdb", bytes);
-  EXPECT_EQ(error_of_open({file}),
-            "3 " + file + ": cut off after " + std::to_string(bytes.size()) +
-                " bytes, within the list of grids; fetch or write the file again");
-}
-
-struct RealGrid {
-  const char* file;
-  const char* grid;
-  std::uint64_t n_active;
-  IndexBox box;
-  VolumeClass cls;
-  double spacing;
-  const char* stored_as;
-};
-
-TEST(VdbReal, AgreesWithOtherReaders) {
-  // The numbers of the three densities are those in the file, not their metadata "index".
-  const std::vector<RealGrid> grids{{"vdb-zeno-sphere-levelset/sphere.vdb",
-                                     "",
-                                     40404,
-                                     {{-27, 17, -22}, {20, 64, 25}},
-                                     VolumeClass::level_set,
-                                     0.0099999998,
-                                     ""},
-                                    {"vdb-cube-levelset-half/cube.vdb",
-                                     "ls_cube",
-                                     1452218,
-                                     {{-112, -112, -112}, {112, 112, 112}},
-                                     VolumeClass::level_set,
-                                     0.050000001,
-                                     "half"},
-                                    {"vdb-smoke-fog-half/smoke.vdb",
-                                     "density",
-                                     1049275,
-                                     {{1, 2, 1}, {111, 223, 112}},
-                                     VolumeClass::fog,
-                                     0.47619048,
-                                     "half"},
-                                    {"vdb-torus-bifrost-fog/torus01.vdb",
-                                     "voxel_fog_density",
-                                     2450,
-                                     {{-25, -4, 1}, {-4, 4, 22}},
-                                     VolumeClass::fog,
-                                     0.40323097,
-                                     ""},
-                                    {"vdb-three-density-grids/grids.vdb",
-                                     "density[2]",
-                                     491,
-                                     {{-5, -5, -5}, {5, 5, 5}},
-                                     VolumeClass::fog,
-                                     0.1,
-                                     ""},
-                                    {"vdb-three-density-grids/grids.vdb",
-                                     "density[1]",
-                                     2222,
-                                     {{-9, -13, -9}, {9, 5, 12}},
-                                     VolumeClass::fog,
-                                     0.1,
-                                     ""},
-                                    {"vdb-three-density-grids/grids.vdb",
-                                     "density[0]",
-                                     803,
-                                     {{-5, -5, -5}, {5, 5, 5}},
-                                     VolumeClass::fog,
-                                     0.1,
-                                     ""}};
-  for (const RealGrid& expected : grids) {
-    const std::string file = test::shared_volume(expected.file);
-    MC_NEEDS_VOLUME(file);
-    SourceOptions options;
-    options.grid = expected.grid;
-    const Volume volume = volume_of(open({file}, options).reader);
-    EXPECT_EQ(volume.n_active, expected.n_active) << file;
-    EXPECT_EQ(volume.lattice.box, expected.box) << file;
-    EXPECT_EQ(volume.cls, expected.cls) << file;
-    EXPECT_EQ(volume.stored_as, expected.stored_as) << file;
-    EXPECT_NEAR(volume.lattice.to_world.spacing(0), expected.spacing, 1e-7) << file;
-  }
-}
-
-TEST(VdbReal, UnmeshableGridsAreNamed) {
-  const std::string points = test::shared_volume("vdb-unmeshable/points.vdb");
-  const std::string vectors = test::shared_volume("vdb-unmeshable/vel_VDB_bound_v02.vdb");
-  MC_NEEDS_VOLUME(points);
-  EXPECT_EQ(error_of_open({points}).substr(2 + points.size()),
-            ": grid \"points\": type ptdataidx32, but only scalar grids can be meshed");
-  EXPECT_EQ(error_of_open({vectors}).substr(2 + vectors.size()),
-            ": grid \"vel\": type vec3s, but only scalar grids can be meshed");
-  const auto grids = describe_source(std::vector{vectors}, {}, silent_progress());
-  ASSERT_EQ(grids.size(), 1U);
-  EXPECT_EQ(grids[0].type_name, "vec3s");
 }
 
 }  // namespace
