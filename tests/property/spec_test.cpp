@@ -7,6 +7,7 @@
 #include <set>
 
 #include "fuzz/replay_graph.hpp"
+#include "support/places.hpp"
 
 // Random valid documents: the loader takes them, and their bits depend on nothing but the text.
 
@@ -32,7 +33,7 @@ TEST(RandomSpecs, LoadAndGiveTheSameBitsOnEveryTarget) {
 }
 
 TEST(RandomSpecs, UseEveryTypeThatTheLoaderKnows) {
-  std::ifstream file(std::string(MC_SOURCE_DIR) + "/src/source/spec/nodes.cpp");
+  std::ifstream file(test::source_file("src/source/spec/nodes.cpp"));
   const std::string loader{std::istreambuf_iterator<char>(file), {}};
   std::set<std::string> known;
   const std::string mark = ", NodeType::";

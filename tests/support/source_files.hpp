@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -16,6 +15,7 @@
 #include "mc/base.hpp"
 #include "mc/field.hpp"
 #include "mc/source.hpp"
+#include "support/places.hpp"
 
 // What tests of readers need: a folder of their own, files in it, and the errors that come out.
 
@@ -102,12 +102,6 @@ inline std::string error_of(const std::function<void()>& f) {
 inline std::string error_of_open(const std::vector<std::string>& inputs,
                                  const SourceOptions& options = {}) {
   return error_of([&] { open(inputs, options); });
-}
-
-/// Where the volumes of third parties are; a test that wants one skips itself when it is not there.
-inline std::string shared_volume(const std::string& name) {
-  const char* folder = std::getenv("MC_TEST_VOLUMES");
-  return std::string(folder != nullptr ? folder : MC_DEFAULT_TEST_VOLUMES) + "/" + name;
 }
 
 }  // namespace mc::test

@@ -17,7 +17,7 @@ template <class F>
 std::vector<std::string> readable(const std::string& kind, F&& read) {
   std::vector<std::string> names;
   for (const auto& entry :
-       std::filesystem::directory_iterator(MC_SOURCE_DIR "/data/corpus/" + kind)) {
+       std::filesystem::directory_iterator(test::source_file("data/corpus/" + kind))) {
     const std::string bytes = test::read_bytes(entry.path().string());
     if (read(std::as_bytes(std::span(bytes)))) {
       names.push_back(entry.path().filename().string());

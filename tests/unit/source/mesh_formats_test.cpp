@@ -9,6 +9,7 @@
 #include "fuzz/mesh_input.hpp"
 #include "mc/source.hpp"
 #include "support/mesh_files.hpp"
+#include "support/places.hpp"
 
 // What holds for every format: the same tetrahedron comes out, however a file is cut or damaged
 // nothing but an Error does, and content goes before the name.
@@ -131,7 +132,8 @@ TEST(ReadMesh, DamagedBytesThrowOrRead) {
 
 TEST(ReadMesh, CorpusIsReplayed) {
   std::size_t n_files = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MC_SOURCE_DIR "/data/corpus/mesh")) {
+  for (const auto& entry :
+       std::filesystem::directory_iterator(test::source_file("data/corpus/mesh"))) {
     SCOPED_TRACE(entry.path().string());
     std::ifstream file(entry.path(), std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(file), {}};

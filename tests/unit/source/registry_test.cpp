@@ -132,7 +132,7 @@ TEST(Registry, OptionsThatContradictTheFile) {
 TEST(Registry, SpecsAreKnownByContentAndCanBePlaced) {
   const Folder folder;
   const std::string file =
-      folder.file("sphere", test::read_bytes(MC_SOURCE_DIR "/data/specs/sphere.json"));
+      folder.file("sphere", test::read_bytes(test::source_file("data/specs/sphere.json")));
   EXPECT_EQ(volume_of(test::open({file}).reader).format, "spec");
   SourceOptions options;
   options.spacing = Vec3{1, 2, 3};

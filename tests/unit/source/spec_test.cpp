@@ -14,6 +14,7 @@
 #include "fuzz/replay_spec.hpp"
 #include "source/mapped_file.hpp"
 #include "source/spec/spec.hpp"
+#include "support/places.hpp"
 
 // The mc-volume loader: what its documents mean, and the full text of every fault.
 
@@ -60,7 +61,7 @@ std::unique_ptr<SlabReader> open_spec(const std::string& path) {
   return source::open_spec_text(file.place(), file.text());
 }
 
-std::filesystem::path data_folder() { return std::filesystem::path(MC_SOURCE_DIR) / "data"; }
+std::filesystem::path data_folder() { return test::source_file("data"); }
 
 TEST(Spec, DemoTerrainHasTheKnownCounts) {
   const auto reader = open_spec((data_folder() / "specs/demo-terrain.json").string());
@@ -126,7 +127,7 @@ TEST(Spec, EveryShippedDocumentLoads) {
 }
 
 TEST(Spec, TheExampleOfTheManPageLoads) {
-  const std::string page = text_of(std::filesystem::path(MC_SOURCE_DIR) / "man/mc-volume.5.md");
+  const std::string page = text_of(test::source_file("man/mc-volume.5.md"));
   const std::string fence = "```json\n";
   const std::size_t begin = page.find(fence);
   ASSERT_NE(begin, std::string::npos);
