@@ -43,17 +43,21 @@ CountFirst counting_of(const VolumeReader& reader) {
 /// What one job knows by and by.
 class Extraction {
  public:
-  Extraction(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report)
-      : plan_(plan), job_(job), invocation_(invocation), report_(report) {}
+  Extraction(const ExtractPlan& plan, std::string output, Invocation& invocation, RunReport& report)
+      : plan_(plan), output_(std::move(output)), invocation_(invocation), report_(report) {
+    report_.output = output_;
+  }
 
-  void open();
+  void open(const std::vector<std::string>& inputs);
+  void take(const Source& source);
+  void run();
+
+ private:
   void place_mesh();
   void refuse_collapse() const;
   void choose_surface();
   void describe() const;
   void write();
-
- private:
   template <class Work>
   void timed(const char* stage, Work&& work);
   [[nodiscard]] const VolumeReader& reader() const { return source_->reader; }
@@ -67,10 +71,11 @@ class Extraction {
   void note_border(const MeshTotals& totals) const;
 
   const ExtractPlan& plan_;
-  const Job& job_;
+  std::string output_;
   Invocation& invocation_;
   RunReport& report_;
-  std::optional<Source> source_;
+  std::optional<Source> opened_;
+  const Source* source_ = nullptr;
   Placement placement_;
   MeshNeeds needs_;
   std::vector<Iso> isos_;
@@ -87,19 +92,20 @@ void Extraction::timed(const char* stage, Work&& work) {
   invocation_.console.end_stage();
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
   report_.stages[at].seconds = seconds.count();
-  if (source_) report_.stages[at].n_bytes = sample_bytes(reader());
+  if (source_ != nullptr) report_.stages[at].n_bytes = sample_bytes(reader());
   invocation_.console.detail(fmt::format("{}: {:.3f} s", stage, seconds.count()));
 }
 
-void Extraction::open() {
-  report_.input = job_.inputs.front();
-  report_.output = job_.output;
-  timed("open", [&] {
-    source_.emplace(open_source(job_.inputs, plan_.source, invocation_.console));
-    report_.input = source_->place;
-    report_.volume = volume();
-  });
-  check_region(reader(), plan_.extract.region);
+void Extraction::take(const Source& source) {
+  source_ = &source;
+  report_.input = source.place;
+  report_.volume = volume();
+}
+
+void Extraction::open(const std::vector<std::string>& inputs) {
+  report_.input = inputs.front();
+  timed("open",
+        [&] { take(opened_.emplace(open_source(inputs, plan_.source, invocation_.console))); });
   if (!plan_.source.grid && !source_->other_grids.empty()) {
     invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
                                          source_->place, volume().name,
@@ -108,6 +114,7 @@ void Extraction::open() {
 }
 
 void Extraction::place_mesh() {
+  check_region(reader(), plan_.extract.region);
   placement_ = place(volume(), plan_.place, plan_.format);
   report_.placement = placement_;
   const RoundingLoss loss = rounding_loss(box(), placement_.to_world, Precision::f32);
@@ -173,9 +180,9 @@ void Extraction::choose_surface() {
 /// FIFOs are left alone: opening them is felt at their other end.
 void Extraction::probe_output() const {
   struct stat status {};
-  const bool exists = job_.output != "-" && stat(job_.output.c_str(), &status) == 0;
-  if (job_.output == "-" || (exists && !S_ISREG(status.st_mode))) return;
-  open_mesh_sink(job_.output, plan_.sink);
+  const bool exists = output_ != "-" && stat(output_.c_str(), &status) == 0;
+  if (output_ == "-" || (exists && !S_ISREG(status.st_mode))) return;
+  open_mesh_sink(output_, plan_.sink);
 }
 
 RunOptions Extraction::run_options(const Iso& iso) const {
@@ -223,8 +230,8 @@ SinkOptions Extraction::sink_options() const {
 
 MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
   try {
-    return run(reader(), run_options(iso), plan_.allow_empty, sink, invocation_.console,
-               invocation_.stop.get_token());
+    return mc::run(reader(), run_options(iso), plan_.allow_empty, sink, invocation_.console,
+                   invocation_.stop.get_token());
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::empty) throw;
   }
@@ -253,13 +260,13 @@ void Extraction::note_border(const MeshTotals& totals) const {
 
 void Extraction::write() {
   timed("extract", [&] {
-    const std::unique_ptr<MeshSink> sink = open_mesh_sink(job_.output, sink_options());
+    const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
     for (const Iso& iso : isos_) report_.totals.push_back(run_one(iso, *sink));
     sink->finish();
   });
   for (const MeshTotals& totals : report_.totals) {
     note_border(totals);
-    invocation_.console.detail(fmt::format("{}: {} vertices, {} triangles", job_.output,
+    invocation_.console.detail(fmt::format("{}: {} vertices, {} triangles", output_,
                                            totals.n_vertices, totals.n_triangles));
     if (totals.n_skipped != 0) {
       invocation_.console.detail(fmt::format(
@@ -287,22 +294,33 @@ void Extraction::describe() const {
                       name_of(placement_.units));
   text +=
       fmt::format("memory   {}\n", size_text(memory_needed(reader(), run_options(isos_.front()))));
-  text += fmt::format("output   {} ({})\n", job_.output, plan_.format);
+  text += fmt::format("output   {} ({})\n", output_, plan_.format);
   print_out(text);
+}
+
+void Extraction::run() {
+  place_mesh();
+  choose_surface();
+  if (!plan_.dry_run) {
+    write();
+  } else if (plan_.report != "-") {
+    describe();
+  }
 }
 
 }  // namespace
 
 void run_job(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report) {
-  Extraction extraction(plan, job, invocation, report);
-  extraction.open();
-  extraction.place_mesh();
-  extraction.choose_surface();
-  if (plan.dry_run) {
-    if (plan.report != "-") extraction.describe();
-    return;
-  }
-  extraction.write();
+  Extraction extraction(plan, job.output, invocation, report);
+  extraction.open(job.inputs);
+  extraction.run();
+}
+
+void run_open_job(const ExtractPlan& plan, const std::string& output, const Source& source,
+                  Invocation& invocation, RunReport& report) {
+  Extraction extraction(plan, output, invocation, report);
+  extraction.take(source);
+  extraction.run();
 }
 
 }  // namespace mc::cli

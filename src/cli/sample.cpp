@@ -1,76 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
-#include <memory>
 #include <optional>
 
 #include "base/parallel.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
-#include "cli/planes_a_read.hpp"
 #include "cli/region.hpp"
 #include "cli/resolve.hpp"
 #include "cli/slice.hpp"
+#include "cli/volume_job.hpp"
 
-// `mc sample`: any volume to a volume file, plane by plane, or whole where both ends are sparse; or
-// one slice of it to a picture.
+// `mc sample`: any volume to a volume file, or one slice of it to a picture.
 
 namespace mc::cli {
-
-namespace {
-
-/// All planes in order; the sink has begun.
-void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
-                  Invocation& invocation) {
-  const Volume& volume = reader.volume();
-  const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
-  const std::int32_t step = planes_a_read(volume, plan.memory_bytes, plan.job.output);
-  invocation.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
-  Slab slab;
-  for (std::int32_t k = 0; k < n_planes; k += step) {
-    if (invocation.stop.stop_requested()) throw Cancelled();
-    const std::int32_t end = std::min(n_planes, k + step);
-    reader.read(k, end, slab);
-    sink.write(slab);
-    invocation.console.advance(static_cast<std::uint64_t>(end - k));
-  }
-}
-
-void write_part(const SlabReader& part, const SamplePlan& plan, VolumeSink& sink,
-                Invocation& invocation) {
-  sink.begin(part.volume());
-  write_planes(part, plan, sink, invocation);
-}
-
-void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
-           Invocation& invocation) {
-  if (plan.region) {
-    write_part(*crop_view(reader, *plan.region), plan, sink, invocation);
-  } else {
-    write_part(reader, plan, sink, invocation);
-  }
-}
-
-void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
-           Invocation& invocation) {
-  if (plan.region) {
-    write_part(*dense_view(reader, *plan.region), plan, sink, invocation);
-    return;
-  }
-  sink.begin(reader.volume());
-  if (!sink.write_sparse(reader)) {
-    write_planes(*dense_view(reader, reader.volume().lattice.box), plan, sink, invocation);
-  }
-}
-
-void write_volume(const VolumeReader& from, const SamplePlan& plan, Invocation& invocation) {
-  const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
-  std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, from);
-  sink->finish();
-  invocation.console.end_stage();
-}
-
-}  // namespace
 
 int run_sample(Invocation& invocation, std::vector<std::string> words) {
   SampleArgs args;
