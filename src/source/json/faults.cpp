@@ -52,13 +52,22 @@ TextPosition position_in(std::string_view text, std::size_t offset) {
   return at;
 }
 
+TextPosition Faults::position(std::size_t offset) const {
+  TextPosition at = position_in(text_, offset);
+  at.line += first_line_ - 1;
+  return at;
+}
+
 void Faults::add(std::size_t offset, const std::string& pointer, const std::string& message) {
   if (full()) {
     return skip();
   }
-  const TextPosition at = position_in(text_, offset);
+  const TextPosition at = position(offset);
   std::string line =
       place_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column) + ": ";
+  if (!label_.empty()) {
+    line += label_ + ": ";
+  }
   if (!pointer.empty()) {
     line += pointer + ": ";
   }
@@ -66,7 +75,7 @@ void Faults::add(std::size_t offset, const std::string& pointer, const std::stri
 }
 
 std::string Faults::where(std::size_t offset) const {
-  const TextPosition at = position_in(text_, offset);
+  const TextPosition at = position(offset);
   return "line " + std::to_string(at.line) + ", column " + std::to_string(at.column);
 }
 

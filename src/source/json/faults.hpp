@@ -26,6 +26,9 @@ class Faults {
 
   /// `text` is borrowed. `place` is how messages name the file.
   Faults(std::string place, std::string_view text) : place_(std::move(place)), text_(text) {}
+  /// Of a text that is part of the file: it starts at line `first_line`, and is called `label`.
+  Faults(std::string place, std::string_view text, std::size_t first_line, std::string label)
+      : place_(std::move(place)), text_(text), first_line_(first_line), label_(std::move(label)) {}
 
   /// `pointer` is the JSON Pointer of what is at fault, empty for the document.
   void add(std::size_t offset, const std::string& pointer, const std::string& message);
@@ -49,8 +52,12 @@ class Faults {
     std::size_t offset;
     std::string line;
   };
+  [[nodiscard]] TextPosition position(std::size_t offset) const;
+
   std::string place_;
   std::string_view text_;
+  std::size_t first_line_ = 1;
+  std::string label_;  // "record 3"; or ""
   std::vector<Fault> faults_;
   std::size_t n_skipped_ = 0;
 };

@@ -36,7 +36,9 @@ ObjectReader::ObjectReader(const JsonDocument& document, const JsonValue& value,
 }
 
 const JsonValue* ObjectReader::optional(const char* key) {
-  known_.emplace_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+    known_.emplace_back(key);
+  }
   return value_.find(key);
 }
 

@@ -96,14 +96,20 @@ NodeLoader::NodeLoader(const JsonDocument& document, const JsonValue* named,
                        const GraphSettings& settings, SpecFiles& files)
     : document_(document), files_(files), graph_(settings) {
   harmless_ = graph_.add({});
-  if (named == nullptr) {
+  if (named != nullptr) {
+    take_names(*named);
+  }
+  for (const char* coordinate : {"x", "y", "z"}) {
+    names_.emplace_back(coordinate);
+  }
+}
+
+void NodeLoader::take_names(const JsonValue& named) {
+  if (named.kind != JsonKind::object) {
+    document_.fault(named, as_found(named) + ": expected an object of named nodes");
     return;
   }
-  if (named->kind != JsonKind::object) {
-    document_.fault(*named, as_found(*named) + ": expected an object of named nodes");
-    return;
-  }
-  for (const JsonMember& member : named->members) {
+  for (const JsonMember& member : named.members) {
     if (is_ignored_key(member.key)) {
       continue;
     }
@@ -114,9 +120,6 @@ NodeLoader::NodeLoader(const JsonDocument& document, const JsonValue* named,
     }
     named_.emplace(member.key, Named{&member.value, State::unseen, {}});
     names_.push_back(member.key);
-  }
-  for (const char* coordinate : {"x", "y", "z"}) {
-    names_.emplace_back(coordinate);
   }
 }
 

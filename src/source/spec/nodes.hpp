@@ -36,6 +36,7 @@ class NodeLoader {
     NodeId id{};
   };
 
+  void take_names(const JsonValue& named);
   NodeId load_name(const JsonValue& reference);
   NodeId load_object(const JsonValue& value);
   NodeId resolve(const std::string& name, const JsonValue& reference);

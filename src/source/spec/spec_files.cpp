@@ -63,6 +63,18 @@ std::uint64_t count_samples(const Lattice& lattice, const std::string& place) {
   return count.value_or(std::numeric_limits<std::uint64_t>::max());
 }
 
+/// What is solid in a volume that says so.
+NamedVolume described(const Volume& volume) {
+  NamedVolume named;
+  named.above = volume.cls != VolumeClass::level_set && volume.cls != VolumeClass::sdf_spec;
+  named.iso = volume.iso;
+  if (volume.cls == VolumeClass::level_set) named.iso = volume.iso.value_or(0);
+  if (volume.cls == VolumeClass::fog || volume.cls == VolumeClass::mask) {
+    named.iso = volume.iso.value_or(0.5);
+  }
+  return named;
+}
+
 }  // namespace
 
 SpecFiles::SpecFiles(const std::string& document, const SpecNesting& within)
@@ -124,8 +136,8 @@ std::shared_ptr<const Raster> SpecFiles::picture(const std::string& path,
   return pictures_.emplace(key, std::move(raster)).first->second;
 }
 
-std::shared_ptr<const SampledVolume> SpecFiles::volume(const std::string& path,
-                                                       const std::optional<std::string>& grid) {
+const NamedVolume& SpecFiles::named_volume(const std::string& path,
+                                           const std::optional<std::string>& grid) {
   if (path == "-") {
     throw Error(ErrorKind::usage, "", "stdin cannot be a volume of a document", "name a file");
   }
@@ -134,8 +146,9 @@ std::shared_ptr<const SampledVolume> SpecFiles::volume(const std::string& path,
   if (const auto known = volumes_.find(key); known != volumes_.end()) return known->second;
   const Source source = open_named(place, grid, inside_);
   take(count_samples(volume_of(source.reader).lattice, place), place);
-  auto samples = std::make_shared<const SampledVolume>(read_volume(source.reader, place));
-  return volumes_.emplace(key, std::move(samples)).first->second;
+  NamedVolume named = described(volume_of(source.reader));
+  named.samples = std::make_shared<const SampledVolume>(read_volume(source.reader, place));
+  return volumes_.emplace(key, std::move(named)).first->second;
 }
 
 }  // namespace mc::source

@@ -25,6 +25,13 @@ struct SpecNesting {
   std::uint64_t left = kMostSamples;
 };
 
+/// A volume that a document names, and what is solid in it.
+struct NamedVolume {
+  std::shared_ptr<const SampledVolume> samples{};
+  std::optional<double> iso{};  ///< unset where it does not say
+  bool above = true;            ///< samples above iso are solid, else those below
+};
+
 class SpecFiles {
  public:
   /// `document` is the document's own path: names in it are relative to its folder.
@@ -40,8 +47,11 @@ class SpecFiles {
 
   /// A volume of any kind, made dense. One that is named again is read once.
   /// Errors   those of open_named() and read_volume(); usage: stdin; limit: more than kMostSamples.
+  const NamedVolume& named_volume(const std::string& path, const std::optional<std::string>& grid);
   std::shared_ptr<const SampledVolume> volume(const std::string& path,
-                                              const std::optional<std::string>& grid);
+                                              const std::optional<std::string>& grid) {
+    return named_volume(path, grid).samples;
+  }
 
  private:
   using Key = std::pair<std::string, std::optional<std::string>>;
@@ -52,7 +62,7 @@ class SpecFiles {
   std::string folder_;
   SpecNesting inside_;  ///< what this document's own volumes stand in
   std::map<Key, std::shared_ptr<const Raster>> pictures_;
-  std::map<Key, std::shared_ptr<const SampledVolume>> volumes_;
+  std::map<Key, NamedVolume> volumes_;
 };
 
 }  // namespace mc::source
