@@ -162,12 +162,13 @@ class SideMap {
   std::uint64_t n_left_out_ = 0;
 };
 
-/// Consecutive planes of samples: planes[n] is plane k0 + n, rows lie row_stride_bytes apart, the
-/// samples of a row are adjacent, nothing is aligned. Mapped sources point into the mapping, others
+/// Consecutive planes of samples: planes[n] is plane k0 + n and starts with sample i0 of row j0 (0
+/// where whole planes are held), rows lie row_stride_bytes apart, the samples of a row are
+/// adjacent, nothing is aligned. Mapped sources point into the mapping, others
 /// into `storage`, which a reused Slab keeps from read to read. Samples that `sides` leaves out are
 /// not there: their memory holds anything.
 struct Slab {
-  std::int32_t k0 = 0;
+  std::int32_t i0 = 0, j0 = 0, k0 = 0;
   std::vector<const std::byte*> planes;
   std::size_t row_stride_bytes = 0;
   Buffer<std::byte> storage;

@@ -11,22 +11,32 @@ namespace mc::extraction {
 
 DenseExtractor::DenseExtractor(const Volume& volume, const Affine& to_world,
                                const ExtractOptions& options)
-    : to_world_(to_world),
+    : DenseExtractor(volume, to_world, options, PlaneClassifier(volume, options).whole()) {}
+
+DenseExtractor::DenseExtractor(const Volume& volume, const Affine& to_world,
+                               const ExtractOptions& options, const IndexBox& part)
+    : name_(volume.name),
+      to_world_(to_world),
       options_(options),
       placement_(to_world, options),
       classifier_(volume, options),
-      apex_(middle_of(classifier_.box())) {
-  assert(volume.lattice.box.contains(classifier_.box()));
+      apex_(middle_of(options.region.value_or(volume.lattice.box))) {
+  assert(volume.lattice.box.contains(options.region.value_or(volume.lattice.box)));
+  set_part(part);
+}
+
+void DenseExtractor::set_part(const IndexBox& part) {
+  classifier_.set_part(part);
   const std::size_t row_samples = classifier_.row_samples();
   const std::size_t n_rows = classifier_.n_rows();
   if (classifier_.n_planes() > std::numeric_limits<std::int32_t>::max() || max_layers() < 1) {
-    throw Error(ErrorKind::limit, volume.name,
+    throw Error(ErrorKind::limit, name_,
                 "a plane of " + std::to_string(row_samples) + "x" + std::to_string(n_rows) +
                     " samples could hold more vertices than 32-bit ids can name",
                 "extract it in parts with --region");
   }
   n_layers_ = static_cast<std::int32_t>(classifier_.n_planes()) - 1;
-  planes_.fill(classifier_.make_plane());
+  for (PlaneBits& plane : planes_) classifier_.shape(plane);
   k_start_.resize(n_rows);
 }
 
@@ -40,7 +50,7 @@ std::int32_t DenseExtractor::max_layers() const {
 
 std::pair<std::int32_t, std::int32_t> DenseExtractor::planes_for(std::int32_t l0,
                                                                  std::int32_t l1) const {
-  const IndexBox& box = classifier_.box();
+  const IndexBox& box = samples();
   const std::int32_t ring = options_.normals != Normals::none ? 1 : 0;
   const std::int32_t first = classifier_.first_of(l0)[2] - ring;
   const std::int32_t last = classifier_.first_of(l1)[2] + ring;
@@ -77,7 +87,7 @@ struct DenseExtractor::VertexPass {
 
   VertexPass(DenseExtractor& e, const Slab& slab, MeshChunk& chunk, Bounds& bounds)
       : rules(e.options_, e.to_world_, e.classifier_.threshold()),
-        sampler(slab, e.classifier_.box()),
+        sampler(slab, e.samples()),
         vertices(rules, sampler),
         batch(std::get<EdgeBatch<R>>(e.batches_)),
         writer(rules, sampler, e.options_.precision, batch, chunk, bounds),

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -26,11 +27,24 @@
 
 namespace mc::extraction {
 
-/// Extracts slabs of one volume with one set of options. Holds scratch: one to a thread.
+/// Extracts slabs of one volume with one set of options, or of parts of it, one after the other.
+/// Holds scratch: one to a thread.
 class DenseExtractor {
  public:
   /// Errors: limit, where one layer could hold more vertices than 32-bit ids can name.
   DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options);
+  /// Starts with a part.
+  DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options,
+                 const IndexBox& part);
+
+  /// From now on makes only the cells between these samples of whole(): as they are in the surface
+  /// of all, with its vertices and normals. Layers and ids count from the part's lowest sample.
+  /// Errors: as the constructor's. Allocates nothing where an earlier part had the same size.
+  void set_part(const IndexBox& part);
+  /// All samples that cells lie between, those of a closed border's constant layer included.
+  [[nodiscard]] IndexBox whole() const { return classifier_.whole(); }
+  /// The samples that the part is made of: its own and those that its normals look at.
+  [[nodiscard]] const IndexBox& samples() const { return classifier_.box(); }
 
   /// Layers of cells, those to a closed border included.
   [[nodiscard]] std::int32_t n_layers() const { return n_layers_; }
@@ -45,8 +59,9 @@ class DenseExtractor {
   /// Lets slabs of one run classify the planes between them once. `planes` must outlive the run.
   void share(SharedPlanes* planes) { shared_ = planes; }
 
-  /// Makes the surface of layers [l0, l1). `slab` holds at least the planes of planes_for().
-  /// Indices in `chunk` count from the slab's first vertex.
+  /// Makes the surface of layers [l0, l1). `slab` holds at least the planes of planes_for(), of
+  /// these the rows and columns of samples(). Indices in `chunk` count from the slab's first
+  /// vertex.
   void extract(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
                TaskTotals& totals);
   /// Only counts.
@@ -79,6 +94,7 @@ class DenseExtractor {
   void extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
                      TaskTotals& totals);
 
+  std::string name_;
   Affine to_world_;
   ExtractOptions options_;
   Placement placement_;

@@ -92,7 +92,8 @@ class EdgeGatherer {
     std::uint64_t inside = ~std::uint64_t{0};
     const auto i = clamped(0, hn::LoadU(d, edges.i + e), along_i, inside);
     const auto j = clamped(1, hn::LoadU(d, edges.j + e), along_j, inside);
-    const auto lower = hn::Add(hn::Mul(j, row), hn::Mul(i, size));
+    const auto lower = hn::Add(hn::Mul(hn::Sub(j, hn::Set(d, planes_.first[1])), row),
+                               hn::Mul(hn::Sub(i, hn::Set(d, planes_.first[0])), size));
     const auto upper = hn::Add(
         lower, hn::Add(hn::IfThenElseZero(along_i, size), hn::IfThenElseZero(along_j, row)));
     const std::byte* const upper_plane = between_ ? planes_.after : planes_.here;
@@ -165,11 +166,11 @@ Gathered gather_typed(const PlaneSamples& planes, const EdgePlaces& edges, bool 
 inline std::int32_t bytes_to_gather(const PlaneSamples& planes, bool gradients) {
   const std::int32_t ring = gradients ? 1 : 0;
   for (std::size_t a = 0; a < 2; ++a) {
-    if (planes.lo[a] < 0 || planes.hi[a] - planes.lo[a] < 1 + 2 * ring) return 0;
+    if (planes.lo[a] < planes.first[a] || planes.hi[a] - planes.lo[a] < 1 + 2 * ring) return 0;
   }
   const std::uint64_t bytes =
-      static_cast<std::uint64_t>(planes.hi[1]) * planes.row_bytes +
-      (static_cast<std::uint64_t>(planes.hi[0]) + 1) * sample_size(planes.type);
+      static_cast<std::uint64_t>(planes.hi[1] - planes.first[1]) * planes.row_bytes +
+      (static_cast<std::uint64_t>(planes.hi[0] - planes.first[0]) + 1) * sample_size(planes.type);
   return bytes < 4 || bytes > std::numeric_limits<std::int32_t>::max()
              ? 0
              : static_cast<std::int32_t>(bytes);

@@ -22,7 +22,8 @@ struct PlaneSamples {
   const std::byte* after = nullptr;       ///< plane k + 1; for gradients and k-edges only
   const std::byte* after_next = nullptr;  ///< plane k + 2; for gradients of k-edges only
   std::size_t row_bytes = 0;
-  std::array<std::int32_t, 2> lo{}, hi{};  ///< i and j of the first and the last sample
+  std::array<std::int32_t, 2> first{};     ///< i and j of the sample that planes start with
+  std::array<std::int32_t, 2> lo{}, hi{};  ///< of the first and the last that may be looked at
 };
 
 /// Where gather_edges() puts what it finds.

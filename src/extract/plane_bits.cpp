@@ -2,10 +2,30 @@
 #include "extract/plane_bits.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace mc::extraction {
 
 namespace {
+/// A box with n more samples on all sides.
+IndexBox grown(IndexBox box, std::int32_t n) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.lo[a] -= n;
+    box.hi[a] += n;
+  }
+  return box;
+}
+
+/// What two boxes have in common.
+IndexBox common(const IndexBox& a, const IndexBox& b) {
+  IndexBox out;
+  for (std::size_t n = 0; n < 3; ++n) {
+    out.lo[n] = std::max(a.lo[n], b.lo[n]);
+    out.hi[n] = std::min(a.hi[n], b.hi[n]);
+  }
+  return out;
+}
+
 /// Half of a small second cache: what was read last is still there when its vertices are made.
 constexpr std::size_t kBandBytes = 1U << 18U;
 constexpr std::size_t kMinBandRows = 64;
@@ -13,28 +33,39 @@ constexpr std::size_t kMinBandRows = 64;
 
 PlaneClassifier::PlaneClassifier(const Volume& volume, const ExtractOptions& options)
     : threshold_(volume.type, volume.endian, options.iso, options.inside),
-      box_(options.region.value_or(volume.lattice.box)),
+      region_(options.region.value_or(volume.lattice.box)),
       pad_(options.border != Border::open ? 1 : 0),
-      above_outside_((options.border == Border::solid) == (options.inside == Inside::above)),
-      row_samples_(static_cast<std::size_t>(box_.extent(0) + 2 * pad_)),
-      n_rows_(static_cast<std::size_t>(box_.extent(1) + 2 * pad_)),
-      n_words_(padded_words(row_samples_)) {
+      ring_(options.normals != Normals::none ? 1 : 0),
+      above_outside_((options.border == Border::solid) == (options.inside == Inside::above)) {
+  set_part(whole());
+}
+
+IndexBox PlaneClassifier::whole() const { return grown(region_, pad_); }
+
+void PlaneClassifier::set_part(const IndexBox& part) {
+  assert(whole().contains(part));
+  part_ = part;
+  known_ = common(part, region_);
+  box_ = common(grown(part, ring_), region_);
+  row_samples_ = static_cast<std::size_t>(part.extent(0));
+  n_rows_ = static_cast<std::size_t>(part.extent(1));
+  n_words_ = padded_words(row_samples_);
+  cells_.clear();
   for (std::size_t w = 0; w < n_words_; ++w) {
     cells_.push_back(cell_mask(row_samples_, w));
   }
+  column_cells_.clear();
   for (std::size_t w = 0; 64 * w < n_rows_; ++w) {
     column_cells_.push_back(cell_mask(n_rows_, w));
   }
 }
 
-PlaneBits PlaneClassifier::make_plane() const {
-  PlaneBits plane;
+void PlaneClassifier::shape(PlaneBits& plane) const {
   plane.words.assign(n_words_ * n_rows_ + 1, 0);
   plane.first_column.resize(column_cells_.size() + 1);
   plane.last_column.resize(column_cells_.size() + 1);
   plane.i_start.resize(n_rows_);
   plane.j_start.resize(n_rows_);
-  return plane;
 }
 
 std::size_t PlaneClassifier::rows_at_once() const {
@@ -49,24 +80,29 @@ void PlaneClassifier::fill_row(std::uint64_t* row) const {
   }
 }
 
-/// Moves a row's bits up by one sample and puts the constant layer at both ends.
+/// Puts the constant layer at those ends of a row where the part reaches into it.
 void PlaneClassifier::pad_row(std::uint64_t* row) const {
-  for (std::size_t w = (row_samples_ + 63) / 64; w-- > 0;) {
-    row[w] = (row[w] << 1) | (w > 0 ? row[w - 1] >> 63 : 0);
+  const bool at_first = part_.lo[0] < known_.lo[0];
+  const bool at_last = part_.hi[0] > known_.hi[0];
+  if (at_first) {
+    for (std::size_t w = (row_samples_ + 63) / 64; w-- > 0;) {
+      row[w] = (row[w] << 1) | (w > 0 ? row[w - 1] >> 63 : 0);
+    }
+    row[0] |= above_outside_ ? 1 : 0;
   }
-  if (above_outside_) {
+  if (at_last && above_outside_) {
     const std::size_t last = row_samples_ - 1;
-    row[0] |= 1;
     row[last / 64] |= std::uint64_t{1} << (last % 64);
   }
 }
 
 SampleRows PlaneClassifier::rows_of(const Slab& slab, std::int32_t j, std::int32_t k,
                                     std::size_t n_rows) const {
-  const std::byte* first = slab.planes[static_cast<std::size_t>(k - slab.k0)] +
-                           static_cast<std::size_t>(j) * slab.row_stride_bytes +
-                           static_cast<std::size_t>(box_.lo[0]) * sample_size(threshold_.type);
-  return {first, slab.row_stride_bytes, static_cast<std::size_t>(box_.extent(0)), n_rows};
+  const std::byte* first =
+      slab.planes[static_cast<std::size_t>(k - slab.k0)] +
+      static_cast<std::size_t>(j - slab.j0) * slab.row_stride_bytes +
+      static_cast<std::size_t>(known_.lo[0] - slab.i0) * sample_size(threshold_.type);
+  return {first, slab.row_stride_bytes, static_cast<std::size_t>(known_.extent(0)), n_rows};
 }
 
 /// Classifies rows from j on, all in one block of the slab's map: words of which it does not know
@@ -101,6 +137,7 @@ void PlaneClassifier::classify_samples(const Slab& slab, std::int32_t j, std::in
   if (slab.sides.empty()) {
     return classify_rows(threshold_, rows_of(slab, j, k, n_rows), words, n_words_);
   }
+  assert(known_.lo[0] == slab.sides.box().lo[0]);
   const std::int32_t block = slab.sides.rows();
   for (const std::int32_t end = j + static_cast<std::int32_t>(n_rows); j < end;) {
     const std::int32_t n = std::min(end - j, block - (j - slab.sides.box().lo[1]) % block);
@@ -113,18 +150,19 @@ void PlaneClassifier::classify_samples(const Slab& slab, std::int32_t j, std::in
 void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t j0, std::size_t j1,
                                PlaneBits& out) const {
   const auto row = [&](std::size_t j) { return out.words.data() + j * n_words_; };
-  const auto pad = static_cast<std::size_t>(pad_);
+  const auto n_before = static_cast<std::size_t>(known_.lo[1] - part_.lo[1]);
+  const auto n_behind = static_cast<std::size_t>(part_.hi[1] - known_.hi[1]);
   const std::int32_t k = first_of(plane)[2];
-  const bool is_constant = k < box_.lo[2] || k > box_.hi[2];
-  const std::size_t first = is_constant ? j1 : std::max(j0, pad);
-  const std::size_t last = is_constant ? j1 : std::min(j1, n_rows_ - pad);
+  const bool is_constant = k < known_.lo[2] || k > known_.hi[2];
+  const std::size_t first = is_constant ? j1 : std::max(j0, n_before);
+  const std::size_t last = is_constant ? j1 : std::min(j1, n_rows_ - n_behind);
   for (std::size_t j = j0; j < first; ++j) {
     fill_row(row(j));
   }
   if (first < last) {
-    const auto n_samples = static_cast<std::size_t>(box_.extent(0));
-    const std::size_t j = static_cast<std::size_t>(box_.lo[1]) + first - pad;
-    classify_samples(slab, static_cast<std::int32_t>(j), k, last - first, row(first));
+    const auto n_samples = static_cast<std::size_t>(known_.extent(0));
+    const std::int32_t j = part_.lo[1] + static_cast<std::int32_t>(first);
+    classify_samples(slab, j, k, last - first, row(first));
     for (std::size_t r = first; r < last && capped(); ++r) {
       std::fill(row(r) + (n_samples + 63) / 64, row(r) + n_words_, 0);
       pad_row(row(r));
@@ -162,7 +200,7 @@ std::uint64_t PlaneClassifier::plane_sides(const PlaneBits& plane) const {
 
 std::uint64_t PlaneClassifier::border_sides(const PlaneBits& lower, const PlaneBits& upper,
                                             bool is_first, bool is_last) const {
-  if (capped()) {
+  if (capped() && part_ == whole()) {
     return 0;
   }
   const auto sides = [](const std::uint64_t* a, const std::uint64_t* b, const auto& cells,

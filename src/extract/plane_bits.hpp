@@ -12,7 +12,7 @@
 #include "mc/field.hpp"
 
 // Planes of sample bits of a dense volume or a region of it, with the constant layer of a closed
-// border around it where there is one: bits, never a copy of the data.
+// border around it where there is one: bits, never a copy of the data. All of it, or a part.
 
 namespace mc::extraction {
 
@@ -30,21 +30,28 @@ class PlaneClassifier {
  public:
   PlaneClassifier(const Volume& volume, const ExtractOptions& options);
 
+  /// The region and, where the border is closed, the layer around it.
+  [[nodiscard]] IndexBox whole() const;
+  /// Makes planes of these samples of whole() only, until told otherwise.
+  void set_part(const IndexBox& part);
+
   [[nodiscard]] const Threshold& threshold() const { return threshold_; }
-  [[nodiscard]] const IndexBox& box() const { return box_; }  ///< the region
+  /// Samples that the surface is made of: of the region, those that normals look at too.
+  [[nodiscard]] const IndexBox& box() const { return box_; }
   [[nodiscard]] bool capped() const { return pad_ != 0; }
   /// Lattice indices of a plane's first sample, which may lie in the constant layer.
   [[nodiscard]] Index3 first_of(std::int32_t plane) const {
-    return {box_.lo[0] - pad_, box_.lo[1] - pad_, box_.lo[2] - pad_ + plane};
+    return {part_.lo[0], part_.lo[1], part_.lo[2] + plane};
   }
   [[nodiscard]] std::size_t row_samples() const { return row_samples_; }
   [[nodiscard]] std::size_t n_rows() const { return n_rows_; }
-  [[nodiscard]] std::int64_t n_planes() const { return box_.extent(2) + 2 * pad_; }
+  [[nodiscard]] std::int64_t n_planes() const { return part_.extent(2); }
   [[nodiscard]] std::uint64_t plane_bytes() const {
     return (n_words_ * n_rows_ + 1) * sizeof(std::uint64_t);
   }
 
-  [[nodiscard]] PlaneBits make_plane() const;
+  /// Gives a plane the shape of this part, and no bits.
+  void shape(PlaneBits& plane) const;
   [[nodiscard]] BitPlane view(const PlaneBits& plane) const {
     return {plane.words.data(), cells_.data(), n_words_, row_samples_, n_rows_};
   }
@@ -57,8 +64,8 @@ class PlaneClassifier {
   /// Makes the columns of a plane from its bits.
   void take_columns(PlaneBits& plane) const;
 
-  /// Sides of triangles in those of the volume's faces that a layer of cells touches; none where
-  /// the border is closed.
+  /// Sides of triangles in those of the part's faces that a layer of cells touches; none where the
+  /// border is closed.
   [[nodiscard]] std::uint64_t border_sides(const PlaneBits& lower, const PlaneBits& upper,
                                            bool is_first, bool is_last) const;
 
@@ -74,10 +81,12 @@ class PlaneClassifier {
   [[nodiscard]] std::uint64_t plane_sides(const PlaneBits& plane) const;
 
   Threshold threshold_;
-  IndexBox box_;
-  std::int32_t pad_;
+  IndexBox region_;
+  std::int32_t pad_, ring_;
   bool above_outside_;  ///< what the constant layer is
-  std::size_t row_samples_, n_rows_, n_words_;
+  IndexBox part_, box_;
+  IndexBox known_;  ///< samples of the part that are not of the constant layer
+  std::size_t row_samples_ = 0, n_rows_ = 0, n_words_ = 0;
   Buffer<std::uint64_t> cells_;              ///< ones for the cells of a row
   std::vector<std::uint64_t> column_cells_;  ///< and of a column
 };

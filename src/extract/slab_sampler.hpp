@@ -24,11 +24,11 @@ class SlabSampler {
   [[nodiscard]] const IndexBox& box() const noexcept { return box_; }
   [[nodiscard]] const std::byte* row(std::int32_t j, std::int32_t k) const noexcept {
     return slab_.planes[static_cast<std::size_t>(k - slab_.k0)] +
-           static_cast<std::size_t>(j) * slab_.row_stride_bytes;
+           static_cast<std::size_t>(j - slab_.j0) * slab_.row_stride_bytes;
   }
   [[nodiscard]] T raw(const Index3& p) const noexcept {
     return field::load_sample<T, Swap>(row(p[1], p[2]) +
-                                       static_cast<std::size_t>(p[0]) * sizeof(T));
+                                       static_cast<std::size_t>(p[0] - slab_.i0) * sizeof(T));
   }
   [[nodiscard]] Real<T> at(const Index3& p) const noexcept {
     return static_cast<Real<T>>(field::number(raw(p)));
@@ -79,7 +79,8 @@ class SlabGatherer {
     return slab_.planes[static_cast<std::size_t>(k - slab_.k0)];
   }
   [[nodiscard]] std::size_t offset(std::int32_t i, std::int32_t j) const {
-    return static_cast<std::size_t>(j) * stride_ + static_cast<std::size_t>(i) * sizeof(T);
+    return static_cast<std::size_t>(j - slab_.j0) * stride_ +
+           static_cast<std::size_t>(i - slab_.i0) * sizeof(T);
   }
 
   /// As many edges as gather_edges() takes, from the first on.
@@ -97,6 +98,7 @@ class SlabGatherer {
                                 .after = k < last + ring ? plane(k + 1) : nullptr,
                                 .after_next = k + 1 < last + ring ? plane(k + 2) : nullptr,
                                 .row_bytes = stride_,
+                                .first = {slab_.i0, slab_.j0},
                                 .lo = {box.lo[0], box.lo[1]},
                                 .hi = {box.hi[0], box.hi[1]}};
       auto& lower = batch.lower_gradient;

@@ -50,9 +50,34 @@ class ReferenceExtractor {
     return mesh_;
   }
 
+  /// What remains of the whole surface without the cells that stick out of `part`.
+  Mesh extract_part(const IndexBox& part) {
+    const Mesh whole = extract();
+    Mesh mesh;
+    std::vector<std::uint32_t> ids(whole.positions.size());
+    for (std::size_t v = 0; v < ids.size(); ++v) {
+      if (!holds(part, edges_[v])) continue;
+      ids[v] = static_cast<std::uint32_t>(mesh.positions.size());
+      mesh.positions.push_back(whole.positions[v]);
+      if (!whole.normals.empty()) mesh.normals.push_back(whole.normals[v]);
+    }
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+      const auto& [i, j, k] = cells_[t];
+      if (!part.contains(IndexBox{{i, j, k}, {i + 1, j + 1, k + 1}})) continue;
+      const auto& [a, b, c] = whole.triangles[t];
+      mesh.triangles.push_back({ids[a], ids[b], ids[c]});
+    }
+    return mesh;
+  }
+
  private:
   using Edge = std::tuple<int, int, int, int>;  // i, j, k, axis
 
+  static bool holds(const IndexBox& box, const Edge& edge) {
+    const auto& [i, j, k, axis] = edge;
+    return box.contains(Index3{i, j, k}) &&
+           box.contains(Index3{i + (axis == 0), j + (axis == 1), k + (axis == 2)});
+  }
   [[nodiscard]] bool in_box(int i, int j, int k) const { return box_.contains(Index3{i, j, k}); }
   [[nodiscard]] T raw(int i, int j, int k) const {
     return samples_[static_cast<std::size_t>(i) +
@@ -107,6 +132,7 @@ class ReferenceExtractor {
     for (std::size_t n = 0; n < 3; ++n) shifted.m[4 * n + 3] -= o_.origin[n];
     const Vec3 w = shifted(p);
     ids_[{a[0], a[1], a[2], axis}] = static_cast<std::uint32_t>(mesh_.positions.size());
+    edges_.push_back({a[0], a[1], a[2], axis});
     mesh_.positions.push_back(
         {static_cast<float>(w[0]), static_cast<float>(w[1]), static_cast<float>(w[2])});
     if (o_.normals == Normals::gradient) {
@@ -201,6 +227,7 @@ class ReferenceExtractor {
         std::swap(edges[1], edges[2]);
       }
       mesh_.triangles.push_back(ids);
+      cells_.push_back({i, j, k});
       add_area(ids, edges);
     }
   }
@@ -240,6 +267,8 @@ class ReferenceExtractor {
   IndexBox box_;
   int pad_;
   std::map<Edge, std::uint32_t> ids_;
+  std::vector<Edge> edges_;    // of the vertices
+  std::vector<Index3> cells_;  // of the triangles
   std::vector<std::array<float, 3>> directions_;
   std::vector<double> parameters_;
   std::vector<Vec3> area_sums_;
