@@ -47,7 +47,8 @@ DOORS = {
     "hwy/*": ["*_simd.cpp", "*-inl.hpp"],
     "fmt/*": ["*"],
     "meshoptimizer.h": ["mesh/*", "sink/gltf/*"],
-    "zlib.h": ["source/*"],
+    "zlib.h": ["source/stream/gzip.cpp"],
+    "zstd*.h": ["source/stream/zstd.cpp"],
 }
 
 # What a system brings without a library: the C++ and C headers have no suffix or are listed.

@@ -12,6 +12,7 @@ mc_build_packages=(
   libopenvdb-dev libboost-iostreams-dev zlib1g-dev # the last two: OpenVDB's find module wants them
   libblosc-dev libdeflate-dev # what packs VDB files
   libopenexr-dev libpng-dev
+  libzstd-dev # with zlib: packed inputs
   libtbb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev libfmt-dev libhwy-dev
   libgtest-dev # the presets configure the tests as well
 )
@@ -20,6 +21,7 @@ mc_test_packages=(
   python3:python3 clang-format-14
   assimp-utils:assimp python3-vtk9 # two readers that know nothing of ours
   python3-jsonschema               # the schema of mc-volume
+  zsh:zsh fish:fish                # what completes in them
   npm:npm                          # for the Khronos glTF validator
 )
 

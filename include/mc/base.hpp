@@ -65,6 +65,8 @@ class Progress {
   virtual void advance(std::uint64_t done) = 0;
   /// Something worth knowing ("2 of 3 grids are not meshed: ...").
   virtual void note(std::string_view text) = 0;
+  /// Something that only who looks for it wants to know ("copied to a temporary file").
+  virtual void detail(std::string_view /*text*/) {}
   /// Something that may make the result other than wished; also goes into `--report`.
   virtual void warn(std::string_view text) = 0;
 };

@@ -172,7 +172,19 @@ struct Slab {
   std::vector<const std::byte*> planes;
   std::size_t row_stride_bytes = 0;
   Buffer<std::byte> storage;
+  /// Memory of a source's own that several slabs point into (streams): it stays while one does.
+  std::vector<std::shared_ptr<const std::byte>> shared;
   SideMap sides;
+};
+
+/// What the numbers of a volume are. Sparse volumes: active samples only, active tiles included.
+struct FieldStatistics {
+  std::uint64_t n_samples = 0;  ///< all that were looked at
+  std::uint64_t n_nan = 0;
+  std::uint64_t n_infinite = 0;
+  double min = 0, max = 0, mean = 0;  ///< over the finite samples; NaN where there are none
+  double otsu = 0;  ///< the threshold of Otsu 1979; NaN where there are no finite samples
+  std::vector<double> percentiles;  ///< in the order asked for
 };
 
 /// The port of dense volumes.
@@ -193,6 +205,16 @@ class SlabReader {
                             Slab& out) const;
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
+  /// Whether the planes pass by once (pipes): reads come one at a time, no k0 is lower than the one
+  /// before, and the last ends with the last plane. Only who opens a source with
+  /// SourceOptions::streams meets such a reader.
+  [[nodiscard]] virtual bool reads_once() const { return false; }
+  /// Makes it an ordinary reader, by a copy of the samples on disk. Before the first read.
+  /// Errors: input; output, when there is no room for the copy.
+  virtual void keep_planes(Progress& /*progress*/) {}
+  /// Of a reader that reads_once(), after its last plane: counts and range of its samples; of them
+  /// only a part where read_surface() met both sides of the surface.
+  [[nodiscard]] virtual FieldStatistics seen() const { return {}; }
 };
 
 /// A cube of equal samples, `size` a multiple of 8, `origin` a multiple of `size`.
@@ -251,16 +273,6 @@ std::unique_ptr<SlabReader> dense_view(const LeafReader& sparse, const IndexBox&
 /// Part of a dense volume; indices start at 0,0,0 again, the affine keeps samples in place.
 /// Keeps a reference.
 std::unique_ptr<SlabReader> crop_view(const SlabReader& whole, const IndexBox& box);
-
-/// What the numbers of a volume are. Sparse volumes: active samples only, active tiles included.
-struct FieldStatistics {
-  std::uint64_t n_samples = 0;  ///< all that were looked at
-  std::uint64_t n_nan = 0;
-  std::uint64_t n_infinite = 0;
-  double min = 0, max = 0, mean = 0;  ///< over the finite samples; NaN where there are none
-  double otsu = 0;  ///< the threshold of Otsu 1979; NaN where there are no finite samples
-  std::vector<double> percentiles;  ///< in the order asked for
-};
 
 /// Reads every sample (the scalars more than once where percentiles of wide types are asked for).
 /// Percentiles  in [0, 100], nearest rank over the samples that are not NaN: always a value of the

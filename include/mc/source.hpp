@@ -29,6 +29,12 @@ struct SourceOptions {
   std::optional<Vec3> spacing;           ///< world units; overrides the file's
   std::optional<Vec3> origin;            ///< world position of sample 0,0,0; overrides the file's
   std::optional<std::string> channel{};  ///< pictures; empty: Y, else R, else the first
+  /// The caller minds SlabReader::reads_once(): raw and NRRD samples of a pipe or a packed file are
+  /// then not copied to $TMPDIR.
+  bool streams = false;
+  /// The folder that files must lie in which the input's own text names: pictures and volumes of
+  /// documents, data files of NRRD headers. Empty: anywhere.
+  std::string root{};
 };
 
 struct Source {
@@ -38,7 +44,8 @@ struct Source {
 };
 
 /// Opens a volume. `inputs`: one file, "-" for stdin, a folder, a glob that the shell left alone,
-/// or several slices, raw or pictures (natural order is made here).
+/// or several slices, raw or pictures (natural order is made here). What is packed by gzip or zstd
+/// is unpacked.
 /// Errors   input: missing, empty, damaged, of the wrong size, nothing to mesh; usage: options that
 ///          contradict each other or the kind of file, an invalid spec.
 Source open_source(std::span<const std::string> inputs, const SourceOptions& options,

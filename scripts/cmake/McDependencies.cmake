@@ -22,6 +22,16 @@ option(MC_EXR "OpenEXR pictures" ${MC_EXR_FOUND})
 find_package(PNG QUIET)
 option(MC_PNG "PNG pictures" ${PNG_FOUND})
 
+# Packed inputs.
+find_package(ZLIB QUIET)
+option(MC_GZIP "gzip-packed inputs" ${ZLIB_FOUND})
+find_library(MC_ZSTD_LIBRARY zstd)
+find_path(MC_ZSTD_INCLUDE_DIR zstd.h)
+if(MC_ZSTD_LIBRARY AND MC_ZSTD_INCLUDE_DIR)
+  set(MC_ZSTD_FOUND ON)
+endif()
+option(MC_ZSTD "zstd-packed inputs" ${MC_ZSTD_FOUND})
+
 # Debian ships OpenVDB's find module outside CMake's own path; it is searched last, since its
 # neighbours FindTBB and FindOpenEXR would shadow the good ones.
 list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
@@ -37,7 +47,8 @@ option(MC_VDB "OpenVDB volumes" ${MC_VDB_FOUND})
 function(mc_define_formats target)
   target_compile_definitions(${target} PUBLIC
     MC_WITH_VDB=$<BOOL:${MC_VDB}> MC_WITH_GLTF=$<BOOL:${MC_GLTF}>
-    MC_WITH_EXR=$<BOOL:${MC_EXR}> MC_WITH_PNG=$<BOOL:${MC_PNG}>)
+    MC_WITH_EXR=$<BOOL:${MC_EXR}> MC_WITH_PNG=$<BOOL:${MC_PNG}>
+    MC_WITH_GZIP=$<BOOL:${MC_GZIP}> MC_WITH_ZSTD=$<BOOL:${MC_ZSTD}>)
 endfunction()
 
 # Links what the formats need to `target`.
@@ -45,6 +56,12 @@ function(mc_link_formats target)
   mc_define_formats(${target})
   if(MC_VDB)
     target_link_libraries(${target} PRIVATE blosc deflate)
+  endif()
+  if(MC_GZIP)
+    target_link_libraries(${target} PRIVATE ZLIB::ZLIB)
+  endif()
+  if(MC_ZSTD)
+    target_link_libraries(${target} PRIVATE zstd)
   endif()
   if(MC_GLTF)
     target_link_libraries(${target} PRIVATE TinyGLTF::TinyGLTF)

@@ -2,6 +2,7 @@
 #include "cli/console.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,6 +23,13 @@ constexpr std::int64_t kDrawEvery_ms = 100;
 bool stderr_is_screen() {
   const char* term = std::getenv("TERM");
   return isatty(STDERR_FILENO) == 1 && (term == nullptr || std::string_view(term) != "dumb");
+}
+
+/// Columns of the terminal, less one: what fills a whole line wraps.
+std::size_t screen_width() {
+  winsize size{};
+  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return known ? size.ws_col - 1U : 79U;
 }
 
 std::string amount_text(double amount) {
@@ -109,7 +117,27 @@ std::vector<std::string> Console::take_warnings() {
   return std::exchange(warnings_, {});
 }
 
+void Console::keep_lines() {
+  const std::lock_guard lock(mutex_);
+  keeps_lines_ = true;
+  draws_bar_ = draws_json_ = false;
+}
+
+std::vector<std::string> Console::take_lines() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(lines_, {});
+}
+
+void Console::print_lines(const std::vector<std::string>& lines) {
+  const std::lock_guard lock(mutex_);
+  for (const std::string& line : lines) print_line(line);
+}
+
 void Console::print_line(std::string_view text) {
+  if (keeps_lines_) {
+    lines_.emplace_back(text);
+    return;
+  }
   clear_bar();
   // One write a line, so that lines of several processes do not mix.
   std::string line(text);
@@ -148,6 +176,7 @@ void Console::draw_bar(std::uint64_t done, double seconds) {
   if (total_ > done && rate > 0) {
     line += fmt::format("  ETA {}", duration_text(static_cast<double>(total_ - done) / rate));
   }
+  line.resize(std::min(line.size(), screen_width()));
   const std::size_t width = std::max(line.size(), bar_width_);
   fmt::print(stderr, "\r{:{}}", line, width);
   std::fflush(stderr);

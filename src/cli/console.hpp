@@ -28,12 +28,18 @@ class Console final : public Progress {
   void advance(std::uint64_t done) override;
   void note(std::string_view text) override;
   void warn(std::string_view text) override;
-
   /// What only -v shows.
-  void detail(std::string_view text);
+  void detail(std::string_view text) override;
+
   void error(std::string_view text);
   /// The stage has ended: takes the bar away.
   void end_stage();
+
+  /// For one of several jobs at once: what it says is kept, until take_lines() hands it out.
+  void keep_lines();
+  std::vector<std::string> take_lines();
+  /// Lines that another console has kept.
+  void print_lines(const std::vector<std::string>& lines);
 
   /// Warnings since the last call, oldest first.
   std::vector<std::string> take_warnings();
@@ -50,6 +56,8 @@ class Console final : public Progress {
   std::mutex mutex_;  // guards all but the atomics
   bool quiet_ = false;
   bool verbose_ = false;
+  bool keeps_lines_ = false;
+  std::vector<std::string> lines_;  // kept
   bool draws_bar_ = false;
   bool draws_json_ = false;
   std::size_t bar_width_ = 0;  // of what is on the line now

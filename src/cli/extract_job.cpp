@@ -56,6 +56,7 @@ class Extraction {
   void place_mesh();
   void refuse_collapse() const;
   void choose_surface();
+  void keep_what_is_read_again();
   void describe() const;
   void write();
   template <class Work>
@@ -104,8 +105,9 @@ void Extraction::take(const Source& source) {
 
 void Extraction::open(const std::vector<std::string>& inputs) {
   report_.input = inputs.front();
-  timed("open",
-        [&] { take(opened_.emplace(open_source(inputs, plan_.source, invocation_.console))); });
+  SourceOptions options = plan_.source;
+  options.streams = true;
+  timed("open", [&] { take(opened_.emplace(open_source(inputs, options, invocation_.console))); });
   if (!plan_.source.grid && !source_->other_grids.empty()) {
     invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
                                          source_->place, volume().name,
@@ -160,12 +162,23 @@ FieldStatistics Extraction::measure(std::span<const double> percentiles) {
   return statistics;
 }
 
+/// One pass is enough for one iso that is known, over all planes; else a stream is copied first.
+void Extraction::keep_what_is_read_again() {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader());
+  if (dense == nullptr || !(*dense)->reads_once()) return;
+  const bool again = plan_.isos.size() > 1 || plan_.extract.region;
+  if (iso_needs_data(plan_.isos, volume()) || (again && !plan_.dry_run)) {
+    timed("spool", [&] { (*dense)->keep_planes(invocation_.console); });
+  }
+}
+
 void Extraction::choose_surface() {
   if (!plan_.dry_run) check_memory(reader(), run_options({}));
   inside_ = choose_inside(plan_.inside, plan_.invert, volume());
   border_ = choose_border(plan_.border, volume());
   report_.inside = inside_;
   if (iso_needs_data(plan_.isos, volume()) && !plan_.dry_run) probe_output();
+  keep_what_is_read_again();
   isos_ = choose_isos(plan_.isos, volume(), source_->place,
                       [&](std::span<const double> percentiles) { return measure(percentiles); });
   for (const Iso& iso : isos_) {
@@ -236,7 +249,9 @@ MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
     if (e.kind() != ErrorKind::empty) throw;
   }
   // The engine has not looked at the values; who asked for this iso wants to know them.
-  const FieldStatistics statistics = measure({});
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader());
+  const bool passed = dense != nullptr && (*dense)->reads_once();
+  const FieldStatistics statistics = passed ? (*dense)->seen() : measure({});
   const std::string value = iso_text(iso.value, volume().type);
   if (statistics.n_nan + statistics.n_infinite == statistics.n_samples) {
     throw Error(ErrorKind::empty, source_->place,

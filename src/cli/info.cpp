@@ -45,7 +45,7 @@ void measure_grid(const Source& source, GridInfo& grid, Invocation& invocation) 
 /// Grids in the file's order; `#n` names the n-th of them whatever its name.
 void inspect(const std::vector<std::string>& inputs, const SourceOptions& options,
              Invocation& invocation, InputInfo& info) {
-  info.place = inputs.front();
+  info.place = inputs.front() == "-" ? "<stdin>" : inputs.front();
   const auto grids = describe_source(inputs, options, invocation.console);
   for (const GridDescription& description : grids) info.grids.push_back({description, {}, 0, {}});
   for (std::size_t n = 0; n < info.grids.size(); ++n) {

@@ -27,6 +27,8 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
   invocation.console.configure(plan.common);
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
+  // All planes are written in order; a slice or a region is not all of them.
+  plan.source.streams = !plan.slice && !plan.region;
   const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
   check_region(source.reader, plan.region);
   if (plan.slice) {

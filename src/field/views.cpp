@@ -235,6 +235,7 @@ class CropView final : public SlabReader {
     for (const std::byte*& plane : out.planes) plane += skip;
   }
   [[nodiscard]] bool rereads_cheaply() const override { return whole_.rereads_cheaply(); }
+  [[nodiscard]] bool reads_once() const override { return whole_.reads_once(); }
 
  private:
   const SlabReader& whole_;

@@ -58,9 +58,12 @@ class DenseTasks final : public TaskList {
   [[nodiscard]] std::uint64_t samples(std::size_t n) const override {
     return plane_samples_ * static_cast<std::uint64_t>(last(n) - first(n));
   }
+  void fetch(std::size_t n, std::size_t slot) override {
+    if (reader_.reads_once()) read(n, slots_[slot]);
+  }
   void make(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
-    read(n, s);
+    if (!reader_.reads_once()) read(n, s);
     s.extractor.extract(s.slab, first(n), last(n), out.chunk, out.totals);
     out.totals.n_asked = plane_samples_ * s.slab.planes.size();
     out.totals.n_skipped = s.slab.sides.n_left_out();
@@ -99,7 +102,7 @@ class DenseTasks final : public TaskList {
           std::clamp<std::uint64_t>(v, std::uint64_t(lo), std::uint64_t(hi)));
     };
     const std::int32_t cached = within(kSlabSamples / plane_samples_, kMinLayers, kMaxLayers);
-    if (reader_.rereads_cheaply()) return cached;
+    if (reader_.rereads_cheaply() || reader_.reads_once()) return cached;
     const auto n_parts = static_cast<std::uint64_t>(kTasksAThread * base::thread_count());
     const auto share = static_cast<std::uint64_t>(extractor().n_layers()) / n_parts;
     const std::int32_t dear =

@@ -156,7 +156,12 @@ void Drive::Work::count(bool allow_empty) {
 
 void Drive::Work::extract() {
   progress.begin("extract", n_samples(), "samples");
-  const std::array<base::Step, 5> steps{{
+  const std::array<base::Step, 6> steps{{
+      {true,
+       [this](std::size_t n, std::size_t slot) {
+         look_at_stop();
+         tasks.fetch(n, slot);
+       }},
       {false,
        [this](std::size_t n, std::size_t slot) {
          look_at_stop();

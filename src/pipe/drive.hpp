@@ -9,7 +9,7 @@
 #include "pipe/tasks.hpp"
 
 // The tasks of one extraction, made on all threads, and their chunks' way into the sink:
-// made -> numbered, in order -> formatted -> placed, in order -> written.
+// fetched, in order -> made -> numbered, in order -> formatted -> placed, in order -> written.
 
 namespace mc::pipe {
 

@@ -59,7 +59,11 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
   const auto tasks = tasks_for(reader, options);
   const std::size_t n_slots = slots_within(*tasks, options);
   tasks->set_slots(n_slots);
-  return pipe::Drive().run(*tasks, n_slots, options, allow_empty, sink, progress, stop);
+  RunOptions chosen = options;
+  if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
+    if ((*dense)->reads_once()) chosen.count_first = CountFirst::no;
+  }
+  return pipe::Drive().run(*tasks, n_slots, chosen, allow_empty, sink, progress, stop);
 }
 
 }  // namespace mc

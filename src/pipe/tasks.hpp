@@ -31,6 +31,8 @@ class TaskList {
   [[nodiscard]] virtual std::size_t n_tasks() const = 0;
   /// Samples of task n, for progress.
   [[nodiscard]] virtual std::uint64_t samples(std::size_t n) const = 0;
+  /// Reads what make() will need, where that must happen in order; called so before each make().
+  virtual void fetch(std::size_t /*n*/, std::size_t /*slot*/) {}
   virtual void make(std::size_t n, std::size_t slot, TaskResult& out) = 0;
   /// Only counts.
   virtual void count(std::size_t n, std::size_t slot, TaskResult& out) = 0;

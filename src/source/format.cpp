@@ -18,7 +18,7 @@ struct Row {
   std::string_view extensions;  ///< each between blanks
 };
 
-constexpr std::array<Row, 12> kRows{{
+constexpr std::array<Row, 11> kRows{{
     {Format::raw, "raw", "raw data", " raw "},
     {Format::nrrd, "nrrd", "NRRD", " nrrd nhdr "},
     {Format::vdb, "vdb", "VDB", " vdb "},
@@ -29,7 +29,6 @@ constexpr std::array<Row, 12> kRows{{
     {Format::dicom, "dicom", "DICOM", " dcm dicom ima "},
     {Format::tiff, "tiff", "TIFF", " tif tiff "},
     {Format::png, "png", "PNG", " png "},
-    {Format::gzip, "", "gzip compression", " gz "},
     {Format::mesh, "", "a mesh as a volume", " ply obj stl gltf glb "},
 }};
 
@@ -76,7 +75,6 @@ std::optional<Format> format_of_content(std::string_view bytes) {
   if (has(bytes, 0, "\x76\x2f\x31\x01")) return Format::exr;
   if (has(bytes, 0, "\x89PNG\r\n\x1a\n")) return Format::png;
   if (looks_like_tiff(bytes)) return Format::tiff;
-  if (has(bytes, 0, "\x1f\x8b\x08")) return Format::gzip;
   if (has(bytes, 0, "ply\n") || has(bytes, 0, "ply\r\n") || has(bytes, 0, "glTF")) {
     return Format::mesh;
   }

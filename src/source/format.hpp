@@ -22,7 +22,6 @@ enum class Format : std::uint8_t {
   dicom,
   tiff,
   png,
-  gzip,
   mesh,
 };
 
@@ -35,7 +34,7 @@ enum class Format : std::uint8_t {
 [[nodiscard]] std::optional<Format> format_named(std::string_view name);
 /// What the file's bytes say; never raw. nullopt: nothing.
 [[nodiscard]] std::optional<Format> format_of_content(std::string_view bytes);
-/// What the extension says, given in lower case without its dot; never gzip. nullopt: nothing.
+/// What the extension says, given in lower case without its dot. nullopt: nothing.
 [[nodiscard]] std::optional<Format> format_of_extension(std::string_view extension);
 
 }  // namespace mc::source

@@ -108,12 +108,33 @@ void check_regular(const std::string& path) {
   }
 }
 
+void check_within(const std::string& root, const std::string& path) {
+  if (root.empty()) return;
+  std::error_code error;
+  const fs::path folder = fs::canonical(root, error);
+  if (error) {
+    throw Error(ErrorKind::usage, "--root", fmt::format("{}: {}", root, error.message()));
+  }
+  const fs::path file = fs::weakly_canonical(path, error);
+  const auto [end, ignored] = std::ranges::mismatch(folder, file);
+  if (error || end != folder.end()) {
+    throw Error(ErrorKind::input, path, fmt::format("lies outside of {}, which --root names", root),
+                "name files in it only");
+  }
+}
+
 std::string extension_of(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
   if (!extension.empty()) {
     extension.erase(0, 1);
   }
   return lower_case(extension);
+}
+
+std::string unpacked_extension_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const bool packed = extension == "gz" || extension == "zst";
+  return packed ? extension_of(fs::path(path).stem().string()) : extension;
 }
 
 InputFiles expand_inputs(std::span<const std::string> inputs, Progress& progress) {

@@ -28,7 +28,13 @@ InputFiles expand_inputs(std::span<const std::string> inputs, Progress& progress
 /// Errors   input: a FIFO or a device. What is not there is no error.
 void check_regular(const std::string& path);
 
+/// Files that others name must lie in the folder `root`, symbolic links followed. Empty: anywhere.
+/// Errors   input: the path leads out; usage: there is no such folder.
+void check_within(const std::string& root, const std::string& path);
+
 /// The extension in lower case without its dot, empty where there is none.
 std::string extension_of(const std::string& path);
+/// The same without what packing adds: "raw" of "head.raw.gz".
+std::string unpacked_extension_of(const std::string& path);
 
 }  // namespace mc::source

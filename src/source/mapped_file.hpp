@@ -8,9 +8,12 @@
 #include <string>
 #include <string_view>
 
-// A file's bytes, read-only. Regular files are mapped; what cannot be mapped (a pipe, a FIFO) is
-// first copied to an unlinked temporary file in $TMPDIR, so that every reader may seek. A piped
-// stdin is replaced by its copy: who looks at the first bytes leaves them for who reads the whole.
+#include "mc/base.hpp"
+#include "source/stream/input_file.hpp"
+
+// A file's bytes, read-only. Regular files are mapped; what cannot be mapped (a pipe, a FIFO,
+// packed data) is first copied to an unlinked temporary file in $TMPDIR, so that every reader may
+// seek. A piped stdin is replaced by its copy: who opens it again finds all of it.
 
 namespace mc::source {
 
@@ -20,8 +23,13 @@ class MappedFile {
 
   /// "-" is stdin. A stream is read up to `most_bytes` and one more, which tells that it is longer;
   /// a device, which may never end, only with such a limit. Errors   input (missing, a folder,
-  /// unreadable, empty, an endless device).
+  /// unreadable, empty, an endless device, damaged where packed); output: no room for a copy.
   explicit MappedFile(const std::string& path, std::uint64_t most_bytes = kUnlimited);
+  /// The same of what has been opened; a detail says when a copy is made.
+  explicit MappedFile(InputFile input, std::uint64_t most_bytes = kUnlimited,
+                      Progress& progress = silent_progress());
+  /// Maps a file that is not there by name.
+  MappedFile(std::string place, const Descriptor& file);
   ~MappedFile();
   MappedFile(MappedFile&& other) noexcept;
   MappedFile& operator=(MappedFile&& other) noexcept;
@@ -34,6 +42,8 @@ class MappedFile {
   [[nodiscard]] const std::string& place() const { return place_; }
 
  private:
+  void map(const Descriptor& file);
+
   std::string place_;
   const std::byte* data_ = nullptr;
   std::size_t size_ = 0;

@@ -17,6 +17,7 @@
 #include "source/placement.hpp"
 #include "source/raw/raw.hpp"
 #include "source/spec/spec.hpp"
+#include "source/stream/input_file.hpp"
 #include "source/text.hpp"
 #include "source/vdb/vdb.hpp"
 
@@ -31,7 +32,7 @@ constexpr std::string_view kRawRemedy = "for raw data give --dims X,Y[,Z] and --
 
 struct Decision {
   Format format = Format::raw;
-  std::optional<MappedFile> file;  ///< of formats that are one file
+  std::optional<InputFile> file;  ///< of formats that are one file
 };
 
 [[noreturn]] void unsupported(Format format, std::string_view place) {
@@ -43,22 +44,22 @@ struct Decision {
               "convert it to VDB, NRRD or raw first");
 }
 
-std::optional<Format> recognised(const MappedFile& file, const std::string& path) {
-  std::optional<Format> format = format_of_content(file.text());
-  if (!format && looks_like_spec(file.text())) {
+/// What the content says, then the name, that of a packed file without .gz or .zst.
+std::optional<Format> recognised(InputFile& file, const std::string& path) {
+  constexpr std::size_t kHead = 512, kDocumentHead = std::size_t{1} << 20U;
+  std::optional<Format> format = format_of_content(file.head(kHead));
+  if (!format && looks_like_json(file.head(kHead)) && looks_like_spec(file.head(kDocumentHead))) {
     format = Format::spec;
   }
-  if (format == Format::gzip && path.ends_with(".nii.gz")) {
-    format = Format::nifti;
-  }
-  return format ? format : format_of_extension(extension_of(path));
+  return format ? format : format_of_extension(unpacked_extension_of(path));
 }
 
 /// Several files without --dims and --type: pictures by the first of them. Else no volume, but the
 /// first tells what is missing.
 Decision decide_by_series(const InputFiles& inputs) {
   const std::string& first = inputs.paths.front();
-  const std::optional<Format> format = recognised(MappedFile(first), first);
+  InputFile file(first);
+  const std::optional<Format> format = recognised(file, first);
   if (format && is_image(*format)) {
     return {*format, std::nullopt};
   }
@@ -76,7 +77,7 @@ Decision decide_by_series(const InputFiles& inputs) {
 
 Decision decide_by_file(const InputFiles& inputs, const SourceOptions& options) {
   const std::string& path = inputs.paths.front();
-  MappedFile file(path);
+  InputFile file(path);
   const bool wants_raw = !options.dims.empty() || options.type.has_value();
   const std::optional<Format> format = recognised(file, path);
   if (!format && wants_raw) {
@@ -93,7 +94,8 @@ Decision decide_by_file(const InputFiles& inputs, const SourceOptions& options) 
   const std::filesystem::path sidecar = std::filesystem::path(path).replace_extension(".nhdr");
   std::error_code ignored;
   if (format == Format::raw && !wants_raw && std::filesystem::exists(sidecar, ignored)) {
-    return {Format::nrrd, MappedFile(sidecar.string())};
+    check_within(options.root, sidecar.string());
+    return {Format::nrrd, InputFile(sidecar.string())};
   }
   return {*format, std::move(file)};
 }
@@ -120,7 +122,7 @@ Decision decide(const InputFiles& inputs, const SourceOptions& options) {
           ErrorKind::usage, inputs.place,
           fmt::format("{} files, but --from {} reads one", inputs.paths.size(), options.from));
     }
-    return {*format, MappedFile(inputs.paths.front())};
+    return {*format, InputFile(inputs.paths.front())};
   }
   if (!options.dims.empty() && options.type) {
     return {};
@@ -149,20 +151,27 @@ void check_options(const InputFiles& inputs, Format format, const SourceOptions&
   }
 }
 
+MappedFile mapped(Decision decision, Progress& progress) {
+  return MappedFile(std::move(*decision.file), MappedFile::kUnlimited, progress);
+}
+
 /// From the bytes that told what it is, where there is one file only.
 std::unique_ptr<SlabReader> open_pictures(const InputFiles& inputs, Decision decision,
                                           const SourceOptions& options, Progress& progress) {
+  const Format format = decision.format;
   std::vector<MappedFile> files;
   if (decision.file) {
-    files.push_back(std::move(*decision.file));
+    files.push_back(mapped(std::move(decision), progress));
   } else {
-    for (const std::string& path : inputs.paths) files.emplace_back(path);
+    for (const std::string& path : inputs.paths) {
+      files.emplace_back(InputFile(path), MappedFile::kUnlimited, progress);
+    }
   }
-  return open_slices(std::move(files), decision.format, options, progress);
+  return open_slices(std::move(files), format, options, progress);
 }
 
 Source open_decided(const InputFiles& inputs, Decision decision, const SourceOptions& options,
-                    Progress& progress, const SpecNesting& within = {}) {
+                    Progress& progress, SpecNesting within = {}) {
   Source source;
   source.place = inputs.place;
   switch (decision.format) {
@@ -170,15 +179,16 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
       source.reader = open_nrrd(std::move(*decision.file), options, progress);
       break;
     case Format::vdb: {
-      VdbSource vdb = open_vdb(*decision.file, options);
+      VdbSource vdb = open_vdb(mapped(std::move(decision), progress), options);
       source.reader = std::move(vdb.reader);
       source.other_grids = std::move(vdb.other_grids);
       break;
     }
     case Format::spec: {
       // From the bytes that told what it is: a FIFO gives them once.
-      std::unique_ptr<SlabReader> spec =
-          open_spec_text(decision.file->place(), decision.file->text(), within);
+      within.root = options.root;
+      const MappedFile file = mapped(std::move(decision), progress);
+      std::unique_ptr<SlabReader> spec = open_spec_text(file.place(), file.text(), within);
       source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
       break;
     }
@@ -187,15 +197,15 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
       source.reader = open_pictures(inputs, std::move(decision), options, progress);
       break;
     default:
-      source.reader = open_raw(inputs, options);
+      source.reader = open_raw(inputs, options, progress);
   }
   return source;
 }
 
 /// What a document's volume is: it has to say that, and its sizes, itself.
-Decision decide_without_options(const InputFiles& inputs) {
+Decision decide_by_content(const InputFiles& inputs, const SourceOptions& options) {
   try {
-    Decision decision = decide(inputs, {});
+    Decision decision = decide(inputs, options);
     if (decision.format != Format::raw) {
       return decision;
     }
@@ -213,14 +223,18 @@ Decision decide_without_options(const InputFiles& inputs) {
 Source open_named(const std::string& path, const std::optional<std::string>& grid,
                   const SpecNesting& within) {
   const InputFiles inputs = expand_inputs({&path, 1}, silent_progress());
-  std::ranges::for_each(inputs.paths, check_regular);
-  Decision decision = decide_without_options(inputs);
+  for (const std::string& each : inputs.paths) {
+    check_within(within.root, each);
+    check_regular(each);
+  }
+  SourceOptions options;
+  options.root = within.root;
+  Decision decision = decide_by_content(inputs, options);
   if (grid && decision.format != Format::vdb) {
     throw Error(ErrorKind::input, path,
                 fmt::format("{} has no grids by name", display_name(decision.format)),
                 "leave out \"grid\"");
   }
-  SourceOptions options;
   options.grid = grid;
   return open_decided(inputs, std::move(decision), options, silent_progress(), within);
 }
@@ -245,7 +259,7 @@ std::vector<GridDescription> describe_source(std::span<const std::string> inputs
   source::Decision decision = source::decide(files, options);
   source::check_options(files, decision.format, options);
   if (decision.format == source::Format::vdb) {
-    return source::describe_vdb(*decision.file);
+    return source::describe_vdb(source::mapped(std::move(decision), progress));
   }
   const Source opened = source::open_decided(files, std::move(decision), options, progress);
   const Volume& volume = volume_of(opened.reader);

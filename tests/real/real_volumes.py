@@ -256,6 +256,28 @@ class Exr(unittest.TestCase):
             "must be alike", self.refusal(VOLUMES / self.FOLDER / "multipart.0001.exr"))
 
 
+class Nrrd(RealVolume):
+    PATH = "nrrd-bunny-ct-gz/bunnyPadded.nrrd"
+
+    def test_a_gzipped_scan_with_a_mirrored_axis(self):
+        (entry,) = reference("nrrd-bunny-ct-gz")
+        self.as_is([VOLUMES / self.PATH], entry)
+
+    def test_it_is_unpacked_as_it_passes(self):
+        file, pipe = (SCRATCH / f"bunny-{name}.ply" for name in ("file", "pipe"))
+        options = ["--iso", 127.5, "-v"]
+        done = mc("extract", VOLUMES / self.PATH, *options, "-o", file)
+        self.assertEqual(0, done.returncode, done.stderr.decode())
+        self.assertNotIn("copied", done.stderr.decode())
+        with open(VOLUMES / self.PATH, "rb") as bunny:
+            cat = subprocess.Popen(["cat"], stdin=bunny, stdout=subprocess.PIPE)
+            done = mc("extract", "-", *options, "-o", pipe, stdin=cat.stdout)
+            self.assertEqual(0, cat.wait())
+        self.assertEqual(0, done.returncode, done.stderr.decode())
+        self.assertNotIn("copied", done.stderr.decode())
+        self.assertEqual(file.read_bytes(), pipe.read_bytes())
+
+
 def main():
     global MC, VOLUMES, SCRATCH
     MC = sys.argv[1]

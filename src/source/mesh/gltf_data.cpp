@@ -176,7 +176,7 @@ std::span<const std::byte> GltfBuffers::open_file(const std::string& uri,
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) {
     throw Error(ErrorKind::input, path, "is no regular file, as a buffer of a gltf must be");
   }
-  return files_.try_emplace(path, path).first->second.bytes();
+  return files_.try_emplace(path, InputFile(path, InputFile::Bytes::stored)).first->second.bytes();
 }
 
 }  // namespace mc::source

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 
 #include "mc/source.hpp"
+#include "source/input_files.hpp"
 #include "source/mapped_file.hpp"
 #include "source/mesh/mesh_input.hpp"
 #include "source/mesh/text_cursor.hpp"
@@ -84,10 +84,7 @@ MeshSoup read_mesh(const std::string& path) {
   if (path != "-") {
     const std::filesystem::path name(path);
     input.folder = name.parent_path();
-    extension = name.extension().string();
-    std::ranges::transform(extension, extension.begin(), [](char c) {
-      return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    });
+    extension = "." + source::unpacked_extension_of(path);
   }
   return source::parse_mesh(input, extension);
 }

@@ -144,11 +144,12 @@ void set_type(const NrrdFields& fields, NrrdHeader& header) {
   }
 }
 
-void check_encoding(const NrrdFields& fields) {
+void set_encoding(const NrrdFields& fields, NrrdHeader& header) {
   const std::string encoding = lower_case(fields.required("encoding"));
-  if (encoding != "raw") {
+  header.gzipped = encoding == "gzip" || encoding == "gz";
+  if (!header.gzipped && encoding != "raw") {
     fields.fail("encoding",
-                fmt::format("{} samples are not supported by this version, only raw",
+                fmt::format("{} samples are not supported by this version, only raw and gzip",
                             quoted_text(encoding)),
                 "convert the file, for example with: unu save -f nrrd -e raw -i IN -o OUT");
   }
@@ -203,38 +204,35 @@ void set_data_files(const NrrdFields& fields, NrrdHeader& header) {
 
 }  // namespace
 
-std::optional<std::vector<std::string>> expand_nrrd_pattern(const NrrdDataFiles& files) {
-  const std::string_view pattern = files.pattern;
-  const std::size_t percent = pattern.find('%');
-  if (percent == std::string_view::npos || files.step == 0) {
+std::optional<NrrdPattern> NrrdPattern::parse(std::string_view text) {
+  const std::size_t percent = text.find('%');
+  if (percent == std::string_view::npos) {
     return std::nullopt;
   }
+  NrrdPattern out;
   std::size_t at = percent + 1;
-  bool zeros = false;
-  bool left = false;
-  for (; at < pattern.size() && (pattern[at] == '0' || pattern[at] == '-'); ++at) {
-    zeros = zeros || pattern[at] == '0';
-    left = left || pattern[at] == '-';
+  for (; at < text.size() && (text[at] == '0' || text[at] == '-'); ++at) {
+    out.zeros_ = out.zeros_ || text[at] == '0';
+    out.left_ = out.left_ || text[at] == '-';
   }
-  std::size_t width = 0;
-  for (; at < pattern.size() && pattern[at] >= '0' && pattern[at] <= '9' && width < 100; ++at) {
-    width = 10 * width + static_cast<std::size_t>(pattern[at] - '0');
+  for (; at < text.size() && text[at] >= '0' && text[at] <= '9' && out.width_ < 100; ++at) {
+    out.width_ = 10 * out.width_ + static_cast<std::size_t>(text[at] - '0');
   }
   const bool conversion =
-      at < pattern.size() && std::string_view("diu").find(pattern[at]) != std::string_view::npos;
-  if (!conversion || width > 99 || pattern.find('%', at) != std::string_view::npos) {
+      at < text.size() && std::string_view("diu").find(text[at]) != std::string_view::npos;
+  if (!conversion || out.width_ > 99 || text.find('%', at) != std::string_view::npos) {
     return std::nullopt;
   }
-  std::vector<std::string> names;
-  for (std::int64_t n = files.first; files.step > 0 ? n <= files.last : n >= files.last;
-       n += files.step) {
-    const std::string number = left    ? fmt::format("{:<{}}", n, width)
-                               : zeros ? fmt::format("{:0{}}", n, width)
-                                       : fmt::format("{:{}}", n, width);
-    names.push_back(
-        fmt::format("{}{}{}", pattern.substr(0, percent), number, pattern.substr(at + 1)));
-  }
-  return names;
+  out.before_ = text.substr(0, percent);
+  out.after_ = text.substr(at + 1);
+  return out;
+}
+
+std::string NrrdPattern::name(std::int64_t n) const {
+  const std::string number = left_    ? fmt::format("{:<{}}", n, width_)
+                             : zeros_ ? fmt::format("{:0{}}", n, width_)
+                                      : fmt::format("{:{}}", n, width_);
+  return before_ + number + after_;
 }
 
 NrrdHeader parse_nrrd_header(std::string_view text, const std::string& place) {
@@ -246,9 +244,9 @@ NrrdHeader parse_nrrd_header(std::string_view text, const std::string& place) {
   set_dims(fields, header);
   check_kinds(fields, header);
   set_type(fields, header);
-  check_encoding(fields);
+  set_encoding(fields, header);
   header.skip_lines = whole_number(fields, "line skip", 0);
-  header.skip_bytes = whole_number(fields, "byte skip", -1);
+  header.skip_bytes = whole_number(fields, "byte skip", header.gzipped ? 0 : -1);
   set_data_files(fields, header);
   set_nrrd_placement(fields, header);
   return header;

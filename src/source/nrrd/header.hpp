@@ -34,6 +34,7 @@ struct NrrdHeader {
   Index3 dims{};
   bool leading_axis = false;  ///< a fourth, leading axis of one sample was dropped
   std::optional<std::endian> endian;
+  bool gzipped = false;         ///< encoding: gzip; byte skip then counts unpacked bytes
   std::int64_t skip_bytes = 0;  ///< -1: the samples are the last bytes of the file
   std::int64_t skip_lines = 0;
   std::optional<NrrdDataFiles> data_files;  ///< set: the header is detached
@@ -45,12 +46,22 @@ struct NrrdHeader {
 };
 
 /// Parses the header at the front of `text`, all of it refused by name where it cannot be read
-/// right: encodings other than raw, 64-bit unsigned and block types, vectors, planes or movies.
-/// Errors   input, as "PLACE:LINE: ...".
+/// right: encodings other than raw and gzip, 64-bit unsigned and block types, vectors, planes or
+/// movies. Errors   input, as "PLACE:LINE: ...".
 NrrdHeader parse_nrrd_header(std::string_view text, const std::string& place);
 
-/// Names that a pattern yields. `pattern` has one conversion %d, %i or %u with optional zero, width
-/// and minus. nullopt: it has not. Precondition: (last - first) / step is small.
-std::optional<std::vector<std::string>> expand_nrrd_pattern(const NrrdDataFiles& files);
+/// A pattern as printf takes it, with one conversion %d, %i or %u with optional zero, width and
+/// minus.
+class NrrdPattern {
+ public:
+  /// nullopt: it is none.
+  static std::optional<NrrdPattern> parse(std::string_view text);
+  [[nodiscard]] std::string name(std::int64_t n) const;
+
+ private:
+  std::string before_, after_;
+  std::size_t width_ = 0;
+  bool zeros_ = false, left_ = false;
+};
 
 }  // namespace mc::source

@@ -5,15 +5,19 @@
 
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "field/volume_names.hpp"
+#include "source/input_files.hpp"
 #include "source/mapped_planes.hpp"
 #include "source/nrrd/fields.hpp"
 #include "source/nrrd/header.hpp"
+#include "source/nrrd/nrrd_samples.hpp"
 #include "source/placement.hpp"
 #include "source/text.hpp"
 
@@ -23,10 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Names of all data files, and how many planes each holds.
+/// How many data files there are, how many planes each holds, and what they are called. Names are
+/// made when they are wanted: a header may ask for more of them than there is memory.
 struct DataFiles {
-  std::vector<std::string> names;
+  std::size_t n_files = 0;
   std::int32_t planes_per_file = 0;
+  std::function<std::string(std::size_t n)> name;
 };
 
 [[noreturn]] void wrong_files(const std::string& place, std::string_view fault) {
@@ -63,15 +69,19 @@ DataFiles list_files(const NrrdHeader& header, const std::string& place) {
     wrong_files(place, fmt::format("{} files do not make {} planes", n_files, nz));
   }
   DataFiles out;
+  out.n_files = static_cast<std::size_t>(n_files);
   out.planes_per_file = static_cast<std::int32_t>(nz / n_files);
-  out.names = named.names;
-  if (pattern) {
-    auto names = expand_nrrd_pattern(named);
-    if (!names) {
-      wrong_files(place, fmt::format("{}: one %d was expected", quoted_text(named.pattern)));
-    }
-    out.names = std::move(*names);
+  if (!pattern) {
+    out.name = [names = named.names](std::size_t n) { return names[n]; };
+    return out;
   }
+  const std::optional<NrrdPattern> parsed = NrrdPattern::parse(named.pattern);
+  if (!parsed) {
+    wrong_files(place, fmt::format("{}: one %d was expected", quoted_text(named.pattern)));
+  }
+  out.name = [parsed = *parsed, first = named.first, step = named.step](std::size_t n) {
+    return parsed.name(first + static_cast<std::int64_t>(n) * step);
+  };
   return out;
 }
 
@@ -79,13 +89,6 @@ DataFiles list_files(const NrrdHeader& header, const std::string& place) {
 std::size_t samples_at(const MappedFile& file, std::size_t start, std::uint64_t needed,
                        const NrrdHeader& header, Progress& progress) {
   const std::string_view text = file.text();
-  const auto short_by = [&](std::uint64_t found) {
-    const Index3& d = header.dims;
-    return Error(ErrorKind::input, file.place(),
-                 fmt::format("{} bytes of samples, but {}x{}x{} {} needs {} in this file", found,
-                             d[0], d[1], d[2], sample_name(*header.type), needed),
-                 "the file is cut off or the header's sizes and type are wrong");
-  };
   std::size_t at = start;
   for (std::int64_t n = 0; n < header.skip_lines; ++n) {
     const std::size_t end = text.find('\n', at);
@@ -98,14 +101,14 @@ std::size_t samples_at(const MappedFile& file, std::size_t start, std::uint64_t 
   std::uint64_t left = text.size() - at;
   if (header.skip_bytes < 0) {
     if (left < needed) {
-      throw short_by(left);
+      throw nrrd_cut_off(header, file.place(), left, needed);
     }
     return text.size() - static_cast<std::size_t>(needed);
   }
   const auto skip = static_cast<std::uint64_t>(header.skip_bytes);
   left = left < skip ? 0 : left - skip;
   if (left < needed) {
-    throw short_by(left);
+    throw nrrd_cut_off(header, file.place(), left, needed);
   }
   if (left > needed) {
     progress.warn(
@@ -169,35 +172,98 @@ Volume nrrd_volume(const NrrdHeader& header, const SourceOptions& options,
   return volume;
 }
 
+/// The header's text and some of what follows it, as far as the header may reach.
+std::string_view head_of(InputFile& file) {
+  std::string_view head;
+  for (std::size_t n = 4096; n <= 4 * NrrdFields::kMostBytes; n *= 4) {
+    head = file.head(n);
+    const bool ends = head.find("\n\n") != head.npos || head.find("\n\r\n") != head.npos;
+    const bool lists = head.find("LIST") != head.npos;  // which may hold empty lines
+    if ((ends && !lists) || head.size() < n) break;
+  }
+  return head;
+}
+
+std::unique_ptr<SlabReader> streamed(const Volume& volume, std::unique_ptr<NrrdSamples> samples,
+                                     const SourceOptions& options, Progress& progress) {
+  auto reader = std::make_unique<StreamedPlanes>(volume, std::move(samples));
+  if (!options.streams) reader->keep_planes(progress);
+  return reader;
+}
+
+/// Samples behind the header. Where they have to be kept, so does all of stdin: it may be opened
+/// again.
+std::unique_ptr<SlabReader> open_attached(InputFile file, const NrrdHeader& header,
+                                          const Volume& volume, std::uint64_t n_bytes,
+                                          const SourceOptions& options, Progress& progress) {
+  const bool seeks = header.skip_bytes < 0;
+  const bool mapped = !header.gzipped && (file.mappable() || seeks || !options.streams);
+  if (mapped) {
+    MappedFile whole(std::move(file), MappedFile::kUnlimited, progress);
+    const std::size_t at = samples_at(whole, header.size_bytes, n_bytes, header, progress);
+    std::vector<PlaneFile> files;
+    files.push_back({std::move(whole), at});
+    return std::make_unique<MappedPlanes>(volume, std::move(files), header.dims[2]);
+  }
+  if (!options.streams && file.is_stdin() && !file.mappable()) {
+    const MappedFile kept(std::move(file), MappedFile::kUnlimited, progress);
+    file = InputFile("-");
+  }
+  NrrdPart part{file.place(), std::move(file).stream()};
+  pass_over(*part.bytes, header.size_bytes);
+  auto only = std::make_shared<NrrdPart>(std::move(part));
+  const auto open = [only](std::size_t /*n*/) { return std::move(*only); };
+  return streamed(volume, std::make_unique<NrrdSamples>(header, 1, n_bytes, open, progress),
+                  options, progress);
+}
+
+std::unique_ptr<SlabReader> open_detached(const NrrdHeader& header, const std::string& place,
+                                          const Volume& volume, std::uint64_t n_bytes,
+                                          const SourceOptions& options, Progress& progress) {
+  const DataFiles data = list_files(header, place);
+  const std::uint64_t part_bytes = n_bytes / data.n_files;
+  const fs::path folder = place == "<stdin>" ? fs::path() : fs::path(place).parent_path();
+  const auto open = [name = data.name, folder, root = options.root](std::size_t n) {
+    const fs::path path = folder.empty() ? fs::path(".") / name(n) : folder / name(n);
+    check_within(root, path.string());
+    return InputFile(path.string(), InputFile::Bytes::stored);  // what is packed the header says
+  };
+  if (header.gzipped) {
+    const auto open_part = [open](std::size_t n) {
+      InputFile file = open(n);
+      return NrrdPart{file.place(), std::move(file).stream()};
+    };
+    return streamed(
+        volume,
+        std::make_unique<NrrdSamples>(header, data.n_files, part_bytes, open_part, progress),
+        options, progress);
+  }
+  std::vector<PlaneFile> files;
+  for (std::size_t n = 0; n < data.n_files; ++n) {
+    MappedFile file(open(n), MappedFile::kUnlimited, progress);
+    const std::size_t at = samples_at(file, 0, part_bytes, header, progress);
+    files.push_back({std::move(file), at});
+  }
+  return std::make_unique<MappedPlanes>(volume, std::move(files), data.planes_per_file);
+}
+
 }  // namespace
 
-std::unique_ptr<SlabReader> open_nrrd(MappedFile header_file, const SourceOptions& options,
+std::unique_ptr<SlabReader> open_nrrd(InputFile file, const SourceOptions& options,
                                       Progress& progress) {
-  const std::string place = header_file.place();
-  const NrrdHeader header = parse_nrrd_header(header_file.text(), place);
+  const std::string place = file.place();
+  const NrrdHeader header = parse_nrrd_header(head_of(file), place);
   for (const std::string& field : header.unknown_fields) {
     progress.warn(fmt::format("{}: unknown field {} is ignored", place, field));
   }
   const Volume volume = nrrd_volume(header, options, place);
-  const auto total = volume_bytes(header.dims[0], header.dims[1], header.dims[2], *header.type);
-  if (!total) {
+  const auto n_bytes = volume_bytes(header.dims[0], header.dims[1], header.dims[2], *header.type);
+  if (!n_bytes) {
     throw Error(ErrorKind::input, place, "sizes: more bytes than 64 bits can count");
   }
-  std::vector<PlaneFile> files;
-  if (!header.data_files) {
-    const std::size_t at = samples_at(header_file, header.size_bytes, *total, header, progress);
-    files.push_back({std::move(header_file), at});
-    return std::make_unique<MappedPlanes>(volume, std::move(files), header.dims[2]);
-  }
-  const DataFiles data = list_files(header, place);
-  const std::uint64_t needed = *total / data.names.size();
-  const fs::path folder = place == "<stdin>" ? fs::path() : fs::path(place).parent_path();
-  for (const std::string& name : data.names) {
-    MappedFile file((folder.empty() ? fs::path(".") / name : folder / name).string());
-    const std::size_t at = samples_at(file, 0, needed, header, progress);
-    files.push_back({std::move(file), at});
-  }
-  return std::make_unique<MappedPlanes>(volume, std::move(files), data.planes_per_file);
+  return header.data_files
+             ? open_detached(header, place, volume, *n_bytes, options, progress)
+             : open_attached(std::move(file), header, volume, *n_bytes, options, progress);
 }
 
 }  // namespace mc::source

@@ -11,6 +11,8 @@
 #include "base/checked.hpp"
 #include "source/mapped_planes.hpp"
 #include "source/placement.hpp"
+#include "source/stream/input_file.hpp"
+#include "source/stream/streamed_planes.hpp"
 
 namespace mc::source {
 
@@ -48,18 +50,67 @@ void check_typed(const SourceOptions& options, const std::string& place) {
   }
 }
 
-[[noreturn]] void wrong_size(const MappedFile& file, const std::vector<std::int64_t>& dims,
-                             const SourceOptions& options, std::uint64_t needed) {
-  // A stream was read no further than one byte too many.
-  const bool stream_goes_on = file.bytes().size() == needed + options.skip_bytes + 1;
+/// `n_bytes` are there; or more, of which nobody has seen the end.
+[[noreturn]] void wrong_size(const std::string& place, std::uint64_t n_bytes, bool at_least,
+                             const std::vector<std::int64_t>& dims, const SourceOptions& options) {
+  const std::int64_t nz = dims.size() == 3 ? dims[2] : 1;
+  const std::uint64_t needed = *volume_bytes(dims[0], dims[1], nz, *options.type);
   const bool skips = options.skip_bytes > 0;
-  throw Error(ErrorKind::input, file.place(),
-              fmt::format("{}{} bytes, but {} {}{} needs {}", stream_goes_on ? "at least " : "",
-                          file.bytes().size(), dims_text(dims), sample_name(*options.type),
+  throw Error(ErrorKind::input, place,
+              fmt::format("{}{} bytes, but {} {}{} needs {}", at_least ? "at least " : "", n_bytes,
+                          dims_text(dims), sample_name(*options.type),
                           skips ? fmt::format(" after {} skipped bytes", options.skip_bytes) : "",
                           needed + options.skip_bytes),
               skips ? "check --dims, --type and --skip" : "check --dims and --type");
 }
+
+/// Opens what holds `n_bytes`, the skipped ones among them. Samples that begin like packed data but
+/// have the right size are samples.
+InputFile open_sized(const std::string& path, std::uint64_t n_bytes) {
+  InputFile input(path);
+  const bool stored = input.packing() != Packing::none && input.stored_bytes() == n_bytes;
+  return stored ? InputFile(path, InputFile::Bytes::stored) : std::move(input);
+}
+
+/// A file of known size; of a stream no more was read than one byte too many.
+MappedFile map_sized(InputFile input, std::uint64_t n_bytes, const std::vector<std::int64_t>& dims,
+                     const SourceOptions& options, Progress& progress) {
+  const bool stream = !input.mappable();
+  MappedFile file(std::move(input), n_bytes, progress);
+  if (file.bytes().size() != n_bytes) {
+    wrong_size(file.place(), file.bytes().size(), stream && file.bytes().size() == n_bytes + 1,
+               dims, options);
+  }
+  return file;
+}
+
+/// Samples of a stream whose size is known.
+class RawSamples final : public SampleStream {
+ public:
+  RawSamples(InputFile input, std::vector<std::int64_t> dims, const SourceOptions& options)
+      : place_(input.place()), dims_(std::move(dims)), options_(options) {
+    stream_ = std::move(input).stream();
+    n_read_ = pass_over(*stream_, options_.skip_bytes);
+  }
+
+  void read(std::span<std::byte> out) override {
+    const std::size_t n = stream_->read(out);
+    n_read_ += n;
+    if (n < out.size()) wrong_size(place_, n_read_, false, dims_, options_);
+  }
+  void finish() override {
+    std::byte more{};
+    if (stream_->read({&more, 1}) != 0) wrong_size(place_, n_read_ + 1, true, dims_, options_);
+  }
+  [[nodiscard]] const std::string& place() const override { return place_; }
+
+ private:
+  std::string place_;
+  std::vector<std::int64_t> dims_;
+  SourceOptions options_;
+  std::unique_ptr<ByteStream> stream_;
+  std::uint64_t n_read_ = 0;
+};
 
 /// Planes that the bytes of one file make.
 std::int64_t counted_planes(const MappedFile& file, const SourceOptions& options) {
@@ -91,22 +142,34 @@ Volume raw_volume(const SourceOptions& options, std::int64_t nz) {
   return volume;
 }
 
-std::unique_ptr<SlabReader> open_single(const std::string& path, const SourceOptions& options) {
-  const bool known = options.dims.size() == 3;
-  MappedFile file(path, known ? *volume_bytes(options.dims[0], options.dims[1], options.dims[2],
-                                              *options.type) +
-                                    options.skip_bytes
-                              : MappedFile::kUnlimited);
-  const std::int64_t nz = known ? options.dims[2] : counted_planes(file, options);
+/// Of a volume whose sizes are typed.
+std::unique_ptr<SlabReader> open_sized_volume(const std::string& path, const SourceOptions& options,
+                                              Progress& progress) {
+  const std::vector<std::int64_t>& dims = options.dims;
+  const std::uint64_t n_bytes =
+      *volume_bytes(dims[0], dims[1], dims[2], *options.type) + options.skip_bytes;
+  InputFile input = open_sized(path, n_bytes);
+  Volume volume = raw_volume(options, dims[2]);
+  if (options.streams && !input.mappable()) {
+    return std::make_unique<StreamedPlanes>(
+        std::move(volume), std::make_unique<RawSamples>(std::move(input), dims, options));
+  }
+  std::vector<PlaneFile> files;
+  files.push_back(
+      {map_sized(std::move(input), n_bytes, dims, options, progress), options.skip_bytes});
+  return std::make_unique<MappedPlanes>(std::move(volume), std::move(files),
+                                        static_cast<std::int32_t>(dims[2]));
+}
+
+/// Of a volume whose planes its size tells.
+std::unique_ptr<SlabReader> open_counted_volume(const std::string& path,
+                                                const SourceOptions& options, Progress& progress) {
+  MappedFile file(InputFile(path), MappedFile::kUnlimited, progress);
+  const std::int64_t nz = counted_planes(file, options);
   if (nz < 2 || nz > kMostSamples) {
     throw Error(ErrorKind::input, file.place(),
                 fmt::format("{} planes of {} {}, but 2 to {} were expected", nz,
                             dims_text(options.dims), sample_name(*options.type), kMostSamples));
-  }
-  const std::vector<std::int64_t> dims{options.dims[0], options.dims[1], nz};
-  const std::uint64_t needed = *volume_bytes(dims[0], dims[1], nz, *options.type);
-  if (file.bytes().size() != needed + options.skip_bytes) {
-    wrong_size(file, dims, options, needed);
   }
   std::vector<PlaneFile> files;
   files.push_back({std::move(file), options.skip_bytes});
@@ -114,7 +177,8 @@ std::unique_ptr<SlabReader> open_single(const std::string& path, const SourceOpt
                                         static_cast<std::int32_t>(nz));
 }
 
-std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOptions& options) {
+std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOptions& options,
+                                        Progress& progress) {
   const auto n_files = static_cast<std::int64_t>(inputs.paths.size());
   if (options.dims.size() == 3 && options.dims[2] != n_files) {
     throw Error(ErrorKind::input, inputs.place,
@@ -123,28 +187,28 @@ std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOp
                 "check --dims");
   }
   const std::vector<std::int64_t> dims{options.dims[0], options.dims[1]};
-  const std::uint64_t needed = *volume_bytes(dims[0], dims[1], 1, *options.type);
+  const std::uint64_t n_bytes =
+      *volume_bytes(dims[0], dims[1], 1, *options.type) + options.skip_bytes;
   std::vector<PlaneFile> files;
   files.reserve(inputs.paths.size());
   for (const std::string& path : inputs.paths) {
-    MappedFile file(path);
-    if (file.bytes().size() != needed + options.skip_bytes) {
-      wrong_size(file, dims, options, needed);
-    }
-    files.push_back({std::move(file), options.skip_bytes});
+    files.push_back({map_sized(open_sized(path, n_bytes), n_bytes, dims, options, progress),
+                     options.skip_bytes});
   }
   return std::make_unique<MappedPlanes>(raw_volume(options, n_files), std::move(files), 1);
 }
 
 }  // namespace
 
-std::unique_ptr<SlabReader> open_raw(const InputFiles& inputs, const SourceOptions& options) {
+std::unique_ptr<SlabReader> open_raw(const InputFiles& inputs, const SourceOptions& options,
+                                     Progress& progress) {
   check_typed(options, inputs.place);
   if (options.grid) {
     throw Error(ErrorKind::usage, "--grid", "raw data has no grids");
   }
-  return inputs.paths.size() == 1 ? open_single(inputs.paths.front(), options)
-                                  : open_series(inputs, options);
+  if (inputs.paths.size() > 1) return open_series(inputs, options, progress);
+  return options.dims.size() == 3 ? open_sized_volume(inputs.paths.front(), options, progress)
+                                  : open_counted_volume(inputs.paths.front(), options, progress);
 }
 
 }  // namespace mc::source

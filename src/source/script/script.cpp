@@ -15,6 +15,7 @@
 #include "source/script/header.hpp"
 #include "source/script/record_reader.hpp"
 #include "source/script/script_text.hpp"
+#include "source/stream/byte_stream.hpp"
 
 // A document is one tree, whose "edits" are read one after the other; of JSON Lines each line is a
 // tree of its own.
@@ -29,17 +30,6 @@ constexpr JsonLimits kLimits{.depth = 256, .n_values = 5'000'000};
 bool is_blank(std::string_view text) {
   return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
 }
-
-/// A descriptor that closes itself.
-struct Descriptor {
-  explicit Descriptor(int number) : fd(number) {}
-  ~Descriptor() {
-    if (fd > STDERR_FILENO) ::close(fd);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int fd;
-};
 
 bool is_stream(const std::string& path) {
   struct stat status {};
@@ -197,7 +187,7 @@ Script::Script(const std::string& path) : state_(std::make_unique<State>()) {
     s.place = path == "-" ? "<stdin>" : path;
     s.descriptor = std::make_unique<Descriptor>(
         path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    s.text = text_of_stream(s.descriptor->fd, s.place);
+    s.text = text_of_stream(s.descriptor->get(), s.place);
   } else {
     s.file = std::make_unique<MappedFile>(path);
     s.place = s.file->place();

@@ -69,13 +69,16 @@ std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string
   return std::make_unique<SpecReader>(load_spec(place, text, within));
 }
 
-bool looks_like_spec(std::string_view head) {
+bool looks_like_json(std::string_view head) {
   if (head.starts_with("\xEF\xBB\xBF")) {
     head.remove_prefix(3);
   }
   const std::size_t first = head.find_first_not_of(" \t\r\n");
-  return first != std::string_view::npos && head[first] == '{' &&
-         head.find("mc-volume") != std::string_view::npos;
+  return first != std::string_view::npos && head[first] == '{';
+}
+
+bool looks_like_spec(std::string_view head) {
+  return looks_like_json(head) && head.find("mc-volume") != std::string_view::npos;
 }
 
 }  // namespace mc::source

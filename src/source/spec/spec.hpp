@@ -22,5 +22,7 @@ std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string
 
 /// Whether the first bytes of a file look like such a document, damaged ones included.
 [[nodiscard]] bool looks_like_spec(std::string_view head);
+/// Whether a JSON object begins there.
+[[nodiscard]] bool looks_like_json(std::string_view head);
 
 }  // namespace mc::source

@@ -110,6 +110,7 @@ std::shared_ptr<const Raster> SpecFiles::picture(const std::string& path,
                                                  const std::optional<std::string>& channel) {
   const Key key{resolved(path), channel};
   if (const auto known = pictures_.find(key); known != pictures_.end()) return known->second;
+  check_within(inside_.root, key.first);
   check_regular(key.first);
   const MappedFile file(key.first);
   const std::optional<Format> format = format_of_content(file.text());

@@ -23,6 +23,7 @@ struct SpecNesting {
 
   std::vector<std::string> open{};  ///< the documents around it, as whole paths, outermost first
   std::uint64_t left = kMostSamples;
+  std::string root{};  ///< SourceOptions::root
 };
 
 /// A volume that a document names, and what is solid in it.

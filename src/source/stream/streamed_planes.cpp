@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+#include "source/stream/streamed_planes.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <vector>
+
+#include "source/stream/spool.hpp"
+
+namespace mc::source {
+
+/// Memory of planes; what no slab points into any more is used again.
+class StreamedPlanes::Pool : public std::enable_shared_from_this<Pool> {
+ public:
+  explicit Pool(std::size_t plane_bytes) : plane_bytes_(plane_bytes) {}
+
+  std::shared_ptr<std::byte> take() {
+    Buffer<std::byte>* plane = any_free();
+    plane->resize(plane_bytes_);
+    return {plane->data(), [pool = shared_from_this(), plane](const std::byte* /*data*/) {
+              const std::lock_guard lock(pool->mutex_);
+              pool->free_.push_back(plane);
+            }};
+  }
+
+ private:
+  Buffer<std::byte>* any_free() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty()) return &all_.emplace_back();
+    Buffer<std::byte>* plane = free_.back();
+    free_.pop_back();
+    return plane;
+  }
+
+  std::size_t plane_bytes_;
+  std::mutex mutex_;
+  std::deque<Buffer<std::byte>> all_;
+  std::vector<Buffer<std::byte>*> free_;
+};
+
+StreamedPlanes::StreamedPlanes(Volume volume, std::unique_ptr<SampleStream> samples)
+    : volume_(std::move(volume)) {
+  const Index3 dims = volume_.lattice.dims();
+  row_bytes_ = static_cast<std::size_t>(dims[0]) * sample_size(volume_.type);
+  plane_bytes_ = row_bytes_ * static_cast<std::size_t>(dims[1]);
+  pool_ = std::make_shared<Pool>(plane_bytes_);
+  passing_.reset(new Passing{.mutex = {},
+                             .samples = std::move(samples),
+                             .window = {},
+                             .range = SampleRange(volume_.type, volume_.endian)});
+}
+
+StreamedPlanes::~StreamedPlanes() = default;
+
+StreamedPlanes::Plane StreamedPlanes::next_plane() const {
+  Passing& p = *passing_;
+  const std::shared_ptr<std::byte> plane = pool_->take();
+  p.samples->read({plane.get(), plane_bytes_});
+  if (p.ranging) p.range.add(plane.get(), plane_bytes_ / sample_size(volume_.type));
+  if (++p.next == volume_.lattice.dims()[2]) p.samples->finish();
+  return plane;
+}
+
+void StreamedPlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
+  out.sides.clear();
+  out.shared.clear();
+  if (kept_) {
+    kept_->read(k0, k1, out);
+    return;
+  }
+  Passing& p = *passing_;
+  const std::lock_guard lock(p.mutex);
+  assert(k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
+  assert(k0 >= p.next - static_cast<std::int32_t>(p.window.size()));
+  const auto drop_before = [&](std::int32_t k) {
+    while (!p.window.empty() && p.next - static_cast<std::int32_t>(p.window.size()) < k) {
+      p.window.pop_front();
+    }
+  };
+  drop_before(k0);
+  while (p.next < k1) {
+    p.window.push_back(next_plane());
+    drop_before(k0);
+  }
+  out.k0 = k0;
+  out.row_stride_bytes = row_bytes_;
+  out.planes.clear();
+  out.shared.assign(p.window.begin(), p.window.begin() + (k1 - k0));
+  for (const Plane& plane : out.shared) out.planes.push_back(plane.get());
+}
+
+void StreamedPlanes::read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                                  Slab& out) const {
+  read(k0, k1, out);
+  if (kept_ || query.region != volume_.lattice.box) return;
+  // With samples on both sides there is a surface, and nobody will ask for the range.
+  const std::lock_guard lock(passing_->mutex);
+  passing_->ranging = passing_->ranging && !passing_->range.spans(query.iso);
+}
+
+void StreamedPlanes::keep_planes(Progress& progress) {
+  if (kept_) return;
+  assert(passing_->next == 0);
+  SampleStream& samples = *passing_->samples;
+  Spool spool(samples.place(), "its samples are read more than once", progress);
+  Buffer<std::byte> block(std::size_t{1} << 18U);  // a plane may be more than there is
+  std::uint64_t left = std::uint64_t{plane_bytes_} * std::uint64_t(volume_.lattice.dims()[2]);
+  while (left > 0) {
+    const auto part = std::span(block).first(std::min<std::uint64_t>(left, block.size()));
+    samples.read(part);
+    spool.write(part);
+    left -= part.size();
+  }
+  samples.finish();
+  std::vector<PlaneFile> files;
+  files.push_back({MappedFile(samples.place(), spool.release()), 0});
+  kept_ = std::make_unique<MappedPlanes>(volume_, std::move(files), volume_.lattice.dims()[2]);
+}
+
+}  // namespace mc::source
