@@ -8,6 +8,9 @@ namespace mc::cli {
 
 namespace {
 
+constexpr std::string_view kProgress = "auto always never json";
+constexpr std::string_view kNormals = "gradient face none";
+
 void append(std::vector<Option>& to, std::vector<Option> more) {
   to.insert(to.end(), more.begin(), more.end());
 }
@@ -15,21 +18,23 @@ void append(std::vector<Option>& to, std::vector<Option> more) {
 std::vector<Option> source_options(SourceArgs& a) {
   return {
       {"--from", "TYPE",
-       "what the input is: vdb, raw, nrrd, spec, exr or png (default: its content)", false,
-       &a.from},
+       "what the input is: vdb, raw, nrrd, spec, exr or png (default: its content)", false, &a.from,
+       "vdb raw nrrd spec exr png"},
       {"--grid", "NAME", "VDB grid: NAME, NAME[n] or #n (default: the first that is scalar)", true,
        &a.grid},
       {"--channel", "NAME", "pictures: channel to read (default: Y, else R, else the first)", false,
        &a.channel},
       {"--dims", "X,Y[,Z]", "raw data: samples along each axis; without Z the slices are counted",
        true, &a.dims},
-      {"--type", "TYPE", "raw data: u8, i8, u16, i16, u32, i32, f16, f32 or f64", true, &a.type},
-      {"--endian", "ORDER", "raw data: little (default) or big", false, &a.endian},
+      {"--type", "TYPE", "raw data: u8, i8, u16, i16, u32, i32, f16, f32 or f64", true, &a.type,
+       "u8 i8 u16 i16 u32 i32 f16 f32 f64"},
+      {"--endian", "ORDER", "raw data: little (default) or big", false, &a.endian, "little big"},
       {"--skip", "BYTES", "raw data: header bytes of each file to pass over", false, &a.skip},
       {"--spacing", "X,Y,Z", "world distance between samples; overrides the file's", true,
        &a.spacing},
       {"--origin", "X,Y,Z", "world position of sample 0,0,0; overrides the file's", false,
        &a.origin},
+      {"--root", "DIR", "files that specs and headers name must lie in DIR", false, &a.root},
   };
 }
 
@@ -47,7 +52,7 @@ std::vector<Option> run_options(CommonArgs& a, Text& memory) {
       {"--memory", "SIZE", "budget of the run's buffers, such as 512MiB (default: 1GiB)", false,
        &memory},
       {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr", false,
-       &a.progress},
+       &a.progress, kProgress},
   };
 }
 
@@ -55,31 +60,33 @@ std::vector<Option> surface_options(ExtractArgs& a) {
   return {
       {"--iso", "V[,V...]", "value of the surface: numbers, otsu, or pNN for a percentile", true,
        &a.iso},
-      {"--inside", "SIDE", "which side is solid: above, below or auto (default)", true, &a.inside},
+      {"--inside", "SIDE", "which side is solid: above, below or auto (default)", true, &a.inside,
+       "above below auto"},
       {"--invert", "", "swap the solid side", false, &a.invert},
       {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", false,
        &a.region},
       {"--border", "HOW", "open: the mesh ends at the volume's border; closed: it is capped there",
-       true, &a.border},
+       true, &a.border, "open closed"},
       {"--interpolation", "HOW", "linear (default), or midpoint of each crossed edge", false,
-       &a.interpolation},
+       &a.interpolation, "linear midpoint"},
       {"--cutoff", "D", "edges whose two values differ by less than D take the midpoint", false,
        &a.cutoff},
       {"--min-edge", "E", "keep vertices E of an edge away from its ends (default: 1/1024)", false,
        &a.min_edge},
       {"--topology", "RULE", "faces: one rule for every cell face, always watertight", false,
-       &a.topology},
+       &a.topology, "faces"},
       {"--normals", "HOW", "gradient (default where the format holds normals), face or none", false,
-       &a.normals},
+       &a.normals, kNormals},
   };
 }
 
 std::vector<Option> place_options(ExtractArgs& a) {
   return {
       {"--frame", "FRAME", "source (default), ras or lps: convert to it, or declare it", false,
-       &a.frame},
-      {"--up", "AXIS", "y (default) or z: up axis of a source that has no frame", false, &a.up},
-      {"--units", "UNIT", "mm or m: convert to it, or declare it", false, &a.units},
+       &a.frame, "source ras lps"},
+      {"--up", "AXIS", "y (default) or z: up axis of a source that has no frame", false, &a.up,
+       "y z"},
+      {"--units", "UNIT", "mm or m: convert to it, or declare it", false, &a.units, "mm m"},
   };
 }
 
@@ -91,7 +98,13 @@ std::vector<Option> options_of(ExtractArgs& a) {
        &a.output},
       {"--out-dir", "DIR", "batch: each input becomes a mesh of its own in DIR", true, &a.out_dir},
       {"--to", "TYPE", "ply, obj, stl, glb or gltf (default: by the output's extension)", true,
-       &a.to},
+       &a.to, "ply obj stl glb gltf"},
+      {"--files-from", "FILE", "batch: inputs by name, one a line; - is stdin", false,
+       &a.files_from},
+      {"-0,--null", "", "batch: names of --files-from end in NUL, not in a line's end", false,
+       &a.files_end_in_nul},
+      {"--skip-existing", "", "batch: leave out inputs whose mesh is there", false,
+       &a.skip_existing},
   };
   append(all, surface_options(a));
   append(all, source_options(a.source));
@@ -99,7 +112,8 @@ std::vector<Option> options_of(ExtractArgs& a) {
   append(
       all,
       {{"--ascii", "", "PLY, STL: text form", false, &a.ascii},
-       {"--precision", "HOW", "PLY: float or double coordinates", false, &a.precision},
+       {"--precision", "HOW", "PLY: float or double coordinates", false, &a.precision,
+        "float double"},
        {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
        {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
        {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
@@ -116,13 +130,13 @@ std::vector<Option> options_of(SampleArgs& a) {
       {"-o,--output", "FILE", ".vdb, .nrrd or .raw, slices.####.exr; with --slice .png or .exr",
        true, &a.output},
       {"--to", "TYPE", "vdb, nrrd, raw, exr or png (default: by the output's extension)", true,
-       &a.to},
+       &a.to, "vdb nrrd raw exr png"},
       {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", true, &a.region},
       {"--slice", "AXIS=V", "a picture of one plane: x, y or z=POSITION, or i, j or k=INDEX", true,
        &a.slice},
       {"--range", "LO,HI", "PNG: values of black and white (default: the slice's own)", false,
        &a.range},
-      {"--bits", "N", "PNG: 8 or 16 (default)", false, &a.bits},
+      {"--bits", "N", "PNG: 8 or 16 (default)", false, &a.bits, "8 16"},
   };
   append(all, source_options(a.source));
   append(all, {{"--force", "", "replace an existing output; write binary to a terminal", true,
@@ -137,7 +151,7 @@ std::vector<Option> options_of(InfoArgs& a) {
   append(all, source_options(a.source));
   append(all, {{"--threads", "N", "threads to use (default: all cores)", false, &a.common.threads},
                {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr",
-                false, &a.common.progress}});
+                false, &a.common.progress, kProgress}});
   append(all, talk_options(a.common));
   return all;
 }
@@ -154,8 +168,9 @@ std::vector<Option> options_of(BenchArgs& a) {
       {"--json", "", "all figures as one JSON object", true, &a.json},
       {"--fields", "LIST", "of sphere, terrain, gyroid and noise (default: all)", true, &a.fields},
       {"--size", "N", "samples along each axis of the fields (default: 256)", true, &a.size},
-      {"--type", "TYPE", "u8, i8, u16, i16, u32, i32, f16, f32 (default) or f64", true, &a.type},
-      {"--normals", "HOW", "none (default), gradient or face", true, &a.normals},
+      {"--type", "TYPE", "u8, i8, u16, i16, u32, i32, f16, f32 (default) or f64", true, &a.type,
+       "u8 i8 u16 i16 u32 i32 f16 f32 f64"},
+      {"--normals", "HOW", "none (default), gradient or face", true, &a.normals, kNormals},
       {"--threads", "N[,N...]", "numbers of threads to use (default: one, and all cores)", true,
        &a.threads},
       {"--seconds", "S", "go on for so long with each table's line (default: 1)", true, &a.seconds},
@@ -163,6 +178,8 @@ std::vector<Option> options_of(BenchArgs& a) {
   append(all, talk_options(a.common));
   return all;
 }
+
+std::vector<Option> options_of(CompletionArgs& a) { return talk_options(a.common); }
 
 std::vector<Option> options_of(TopArgs& a) {
   std::vector<Option> all{

@@ -18,7 +18,7 @@ using Text = std::optional<std::string>;
 /// How a source is to be read; the same for every command that takes volumes.
 struct SourceArgs {
   std::vector<std::string> inputs;
-  Text from, grid, channel, dims, type, endian, skip, spacing, origin;
+  Text from, grid, channel, dims, type, endian, skip, spacing, origin, root;
 };
 
 /// Options of every command.
@@ -32,7 +32,8 @@ struct CommonArgs {
 struct ExtractArgs {
   SourceArgs source;
   CommonArgs common;
-  Text output, out_dir, to;
+  Text output, out_dir, to, files_from;
+  bool files_end_in_nul = false, skip_existing = false;
   Text iso, inside, region, border;
   bool invert = false;
   Text interpolation, cutoff, min_edge, topology, normals;
@@ -68,6 +69,10 @@ struct BenchArgs {
   bool json = false;
 };
 
+struct CompletionArgs {
+  CommonArgs common;
+};
+
 /// Options before any command.
 struct TopArgs {
   CommonArgs common;
@@ -81,6 +86,7 @@ struct Option {
   std::string_view help;
   bool basic = false;  ///< shown by --help without -v
   std::variant<Text*, bool*, int*> target;
+  std::string_view values = {};  ///< all that it can be, with blanks between; empty: anything
 };
 
 /// The options of a command, bound to `args`, in the order help shows them. The one table that
@@ -90,6 +96,7 @@ std::vector<Option> options_of(SampleArgs& args);
 std::vector<Option> options_of(InfoArgs& args);
 std::vector<Option> options_of(CheckArgs& args);
 std::vector<Option> options_of(BenchArgs& args);
+std::vector<Option> options_of(CompletionArgs& args);
 std::vector<Option> options_of(TopArgs& args);
 
 }  // namespace mc::cli

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 
 #include "base/checked.hpp"
@@ -126,6 +127,13 @@ SourceOptions resolve_source(const SourceArgs& args) {
         parse_integer("--skip", *args.skip, 0, std::numeric_limits<std::int64_t>::max()));
   }
   if (args.spacing) options.spacing = parse_spacing(*args.spacing);
+  if (args.root) {
+    std::error_code ignored;
+    if (!std::filesystem::is_directory(*args.root, ignored)) {
+      throw Error(ErrorKind::usage, "--root", fmt::format("'{}': expected a folder", *args.root));
+    }
+    options.root = *args.root;
+  }
   if (args.origin) options.origin = parse_vector("--origin", *args.origin);
   return options;
 }

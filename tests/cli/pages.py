@@ -16,13 +16,13 @@ import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 COMMANDS = {"mc": "", "mc-extract": "extract", "mc-sample": "sample", "mc-info": "info",
-            "mc-check": "check", "mc-bench": "bench"}
+            "mc-check": "check", "mc-bench": "bench", "mc-completion": "completion"}
 
 
 def options_in_page(text):
     section = re.search(r"^# OPTIONS\n(.*?)^# ", text, re.MULTILINE | re.DOTALL).group(1)
     heads = [line for line in section.splitlines() if line.startswith("**-")]
-    return {name for head in heads for name in re.findall(r"\*\*(--?[a-z-]+)\*\*", head)}
+    return {name for head in heads for name in re.findall(r"\*\*(--?[a-z0-9-]+)\*\*", head)}
 
 
 def options_in_program(mc, command):

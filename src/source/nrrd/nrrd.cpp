@@ -226,6 +226,7 @@ std::unique_ptr<SlabReader> open_detached(const NrrdHeader& header, const std::s
   const auto open = [name = data.name, folder, root = options.root](std::size_t n) {
     const fs::path path = folder.empty() ? fs::path(".") / name(n) : folder / name(n);
     check_within(root, path.string());
+    check_regular(path.string());
     return InputFile(path.string(), InputFile::Bytes::stored);  // what is packed the header says
   };
   if (header.gzipped) {
