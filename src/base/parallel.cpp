@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #if MC_THREADS_STD
@@ -56,6 +57,7 @@ class Slots {
 namespace {
 
 std::atomic<int> limit{0};
+thread_local bool is_alone = false;
 
 /// Runs `body` on n threads, the caller's among them, and rethrows the first exception.
 void on_threads(int n, const std::function<void()>& body) {
@@ -80,12 +82,21 @@ void on_threads(int n, const std::function<void()>& body) {
 }  // namespace
 
 int thread_count() {
+  if (is_alone) return 1;
   const int asked = limit.load();
   return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 ThreadLimit::ThreadLimit(int n_threads) { limit = n_threads; }
 ThreadLimit::~ThreadLimit() { limit = 0; }
+
+void alone(const std::function<void()>& work) {
+  struct Alone {
+    bool before = std::exchange(is_alone, true);
+    ~Alone() { is_alone = before; }
+  } const guard;
+  work();
+}
 
 void for_ranges(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& body) {
@@ -186,6 +197,8 @@ ThreadLimit::ThreadLimit(int n_threads)
     : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                        static_cast<std::size_t>(std::max(1, n_threads)))) {}
 ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+
+void alone(const std::function<void()>& work) { tbb::task_arena(1).execute(work); }
 
 void for_ranges(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& body) {

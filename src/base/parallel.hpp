@@ -25,6 +25,9 @@ class ThreadLimit {
   void* control_ = nullptr;
 };
 
+/// Does the work with one thread, whatever runs beside it: in it thread_count() is 1.
+void alone(const std::function<void()>& work);
+
 /// Calls body(begin, end) for disjoint ranges that cover [0, n), ranges of at least `grain`, on
 /// several threads. Serial when n <= grain. The first exception of a body comes out.
 void for_ranges(std::size_t n, std::size_t grain,

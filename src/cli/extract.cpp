@@ -4,10 +4,11 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "cli/batch.hpp"
 #include "cli/command_line.hpp"
-#include "cli/extract_job.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
+#include "cli/report.hpp"
 #include "cli/report_file.hpp"
 
 // `mc extract`: volumes to meshes, one or a batch of them.
@@ -15,20 +16,6 @@
 namespace mc::cli {
 
 namespace {
-
-/// One job, whatever becomes of it: its report is complete and its failure told.
-int run_reported(const ExtractPlan& plan, const Job& job, Invocation& invocation,
-                 ReportFile& file) {
-  RunReport report;
-  const auto failure = attempt([&] { run_job(plan, job, invocation, report); });
-  if (failure) {
-    report.status = show(invocation.console, *failure);
-    report.error = fmt::format("{}", fmt::join(failure->lines, "\n"));
-  }
-  report.warnings = invocation.console.take_warnings();
-  file.add_line(to_json(report));
-  return report.status;
-}
 
 /// A command line that is wrong is reported too, as far as it can be read.
 int report_usage(const ExtractArgs& args, Invocation& invocation, const Failure& failure) {
@@ -65,12 +52,7 @@ int run_extract(Invocation& invocation, std::vector<std::string> words) {
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
   ReportFile file(plan.report);
-  int status = 0;
-  for (const Job& job : plan.jobs) {
-    const int job_status = run_reported(plan, job, invocation, file);
-    if (status == 0) status = job_status;
-    if (invocation.stop.stop_requested()) break;
-  }
+  const int status = run_jobs(plan, invocation, file);
   file.finish();
   return status;
 }

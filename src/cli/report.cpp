@@ -139,6 +139,7 @@ std::string to_json(const RunReport& report) {
   json["mc"] = MC_VERSION;
   json["status"] = report.status;
   json["error"] = or_null(report.error);
+  if (report.skipped) json["skipped"] = true;
   json["input"] = input_json(report);
   json["output"] = or_null(report.output);
   json["iso"] = report.isos;

@@ -26,6 +26,7 @@ struct Stage {
 /// How an extraction went, filled in as far as it came.
 struct RunReport {
   int status = 0;
+  bool skipped = false;  ///< by --skip-existing
   std::optional<std::string> error;
   std::string input;
   std::optional<Volume> volume;

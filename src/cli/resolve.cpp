@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <map>
+#include <unordered_map>
 
 #include "cli/command_line.hpp"
+#include "cli/file_list.hpp"
 #include "cli/values.hpp"
 
 // Text to plans for the commands that write: defaults filled in, contradictions refused.
@@ -40,6 +41,7 @@ std::string stem_of(const std::string& input) {
   if (input == "-") return "stdin";
   fs::path path(input);
   if (!path.has_filename()) path = path.parent_path();  // a folder written with a slash at its end
+  if (path.extension() == ".gz" || path.extension() == ".zst") path = path.stem();
   std::string stem = path.stem().string();
   std::erase_if(stem, [](char c) { return c == '*' || c == '?' || c == '#'; });
   return stem.empty() || stem == "." || stem == ".." ? "volume" : stem;
@@ -176,10 +178,12 @@ void resolve_form(const ExtractArgs& args, ExtractPlan& plan) {
 }
 
 /// DIR/stem.TO for every input, each name once.
-std::vector<Job> batch_jobs(const ExtractArgs& args, const std::string& format) {
+std::vector<Job> batch_jobs(const ExtractArgs& args, const std::vector<std::string>& inputs,
+                            const std::string& format) {
   std::vector<Job> jobs;
-  std::map<std::string, std::string> owner;
-  for (const std::string& input : args.source.inputs) {
+  jobs.reserve(inputs.size());
+  std::unordered_map<std::string, std::string> owner;
+  for (const std::string& input : inputs) {
     if (input == "-") refuse("--out-dir", "stdin has no name to call its mesh by", "use -o FILE");
     const std::string output = (fs::path(*args.out_dir) / (stem_of(input) + "." + format)).string();
     const auto [at, fresh] = owner.emplace(output, input);
@@ -193,7 +197,22 @@ std::vector<Job> batch_jobs(const ExtractArgs& args, const std::string& format) 
   return jobs;
 }
 
-void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
+/// What belongs to batches only.
+void check_batch(const ExtractArgs& args) {
+  for (const auto& [name, given] : {std::pair{"--files-from", args.files_from.has_value()},
+                                    {"--skip-existing", args.skip_existing}}) {
+    if (given && !args.out_dir) refuse(name, "is for batches: expected --out-dir DIR with it");
+  }
+  if (args.files_end_in_nul && !args.files_from) {
+    refuse("--null", "is for --files-from: expected a FILE of names with it");
+  }
+  if (args.skip_existing && args.force) {
+    refuse("--skip-existing", "contradicts --force", "give one of them");
+  }
+}
+
+void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inputs,
+                    ExtractPlan& plan) {
   check_output_name(args.output);
   if (args.output && args.out_dir) refuse("--out-dir", "contradicts --output", "give one of them");
   plan.sink.force = args.force;
@@ -202,8 +221,7 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
   if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
   if (plan.batch && !args.to) plan.sink.to = "glb";
   if (!plan.batch && !args.output) {
-    refuse_missing_output("extract", args.common, args.source.inputs,
-                          "." + args.to.value_or("glb"));
+    refuse_missing_output("extract", args.common, inputs, "." + args.to.value_or("glb"));
   }
   plan.format = output_format(plan.batch ? "" : *args.output, plan.sink);
   if (!is_mesh_format(plan.format)) {
@@ -213,9 +231,9 @@ void resolve_output(const ExtractArgs& args, ExtractPlan& plan) {
   }
   plan.sink.to = plan.format;
   if (plan.batch) {
-    plan.jobs = batch_jobs(args, plan.format);
+    plan.jobs = batch_jobs(args, inputs, plan.format);
   } else {
-    plan.jobs = {{args.source.inputs, *args.output}};
+    plan.jobs = {{inputs, *args.output}};
   }
   for (const Job& job : plan.jobs) {
     if (plan.format == "gltf" && is_stream(job.output)) {
@@ -289,10 +307,14 @@ Normals parse_normals(const std::string& text) {
 
 ExtractPlan resolve(const ExtractArgs& args) {
   ExtractPlan plan;
-  check_inputs("extract", args.source.inputs);
+  check_batch(args);
+  std::vector<std::string> inputs = args.source.inputs;
+  if (args.files_from) append_listed(*args.files_from, args.files_end_in_nul, inputs);
+  check_inputs("extract", inputs);
+  plan.skip_existing = args.skip_existing;
   plan.common = resolve_common(args.common);
   plan.source = resolve_source(args.source);
-  resolve_output(args, plan);
+  resolve_output(args, inputs, plan);
   resolve_surface(args, plan);
   resolve_edges(args, plan.extract);
   resolve_normals(args, plan);

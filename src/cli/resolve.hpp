@@ -52,6 +52,7 @@ struct Job {
 struct ExtractPlan {
   std::vector<Job> jobs;  ///< one, but in a batch
   bool batch = false;
+  bool skip_existing = false;  ///< batch: leave out jobs whose output is there
   SourceOptions source;
   SinkOptions sink;
   std::string format;           ///< of the output: "ply", "obj", "stl", "glb", "gltf"
@@ -95,6 +96,7 @@ SourceOptions resolve_source(const SourceArgs& args);
 /// The values of --type and --normals.
 SampleType parse_type(const std::string& text);
 Normals parse_normals(const std::string& text);
+/// Reads the names of --files-from. Errors   input: what holds them cannot be read.
 ExtractPlan resolve(const ExtractArgs& args);
 SamplePlan resolve(const SampleArgs& args);
 
