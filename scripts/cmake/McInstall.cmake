@@ -27,6 +27,25 @@ if(TARGET mc)
 endif()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+# The shells' completions, printed by the program under the name that it is installed by.
+if(TARGET mc)
+  foreach(shell IN ITEMS bash zsh fish)
+    set(script completions/${shell})
+    add_custom_command(OUTPUT ${script}
+      COMMAND ${CMAKE_COMMAND} -E make_directory completions
+      COMMAND $<TARGET_FILE:mc> completion ${shell} ${MC_PROGRAM_NAME} > ${script}
+      DEPENDS mc COMMENT "Printing completions for ${shell}" VERBATIM)
+    list(APPEND MC_COMPLETIONS ${script})
+  endforeach()
+  add_custom_target(mc_completions ALL DEPENDS ${MC_COMPLETIONS})
+  install(FILES ${CMAKE_BINARY_DIR}/completions/bash
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${MC_PROGRAM_NAME})
+  install(FILES ${CMAKE_BINARY_DIR}/completions/zsh
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions RENAME _${MC_PROGRAM_NAME})
+  install(FILES ${CMAKE_BINARY_DIR}/completions/fish
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d RENAME ${MC_PROGRAM_NAME}.fish)
+endif()
+
 # Man pages: man/PAGE.SECTION.md -> PAGE.SECTION, named after the program in section 1.
 find_program(MC_PANDOC pandoc)
 file(GLOB MC_PAGES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/man/*.[15].md)

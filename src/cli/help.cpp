@@ -26,7 +26,7 @@ struct Page {
   std::string_view examples;
 };
 
-constexpr std::array<Page, 5> kPages{{
+constexpr std::array<Page, 6> kPages{{
     {"extract", "mc extract INPUT... -o OUTPUT", "volume to triangle mesh",
      "Meshes the surface where the values of a volume pass --iso. INPUT is a VDB or NRRD\n"
      "file, a mc-volume spec (.json), raw data (with --dims and --type), raw slices, or -\n"
@@ -59,6 +59,11 @@ constexpr std::array<Page, 5> kPages{{
      "  mc bench\n"
      "  mc bench --size 512 --fields gyroid,noise --normals gradient\n"
      "  mc bench --type u8 --threads 1,2,4 --json\n"},
+    {"completion", "mc completion SHELL [NAME]", "what bash, zsh or fish complete",
+     "Prints a script that lets a shell complete commands, options and their values. NAME is\n"
+     "the program's, where it is installed by another than mc.\n",
+     "  source <(mc completion bash)\n"
+     "  mc completion fish > ~/.config/fish/completions/mc.fish\n"},
 }};
 
 /// What else `mc help` can tell of.
@@ -92,9 +97,10 @@ const Page* page_of(std::string_view command) {
   return at == kPages.end() ? nullptr : &*at;
 }
 
-/// Calls f with the option table of a command.
-template <class F>
-auto with_options(std::string_view command, F&& f) {
+}  // namespace
+
+void with_options(std::string_view command,
+                  const std::function<void(const std::vector<Option>&)>& f) {
   if (command == "extract") {
     ExtractArgs args;
     return f(options_of(args));
@@ -115,9 +121,15 @@ auto with_options(std::string_view command, F&& f) {
     BenchArgs args;
     return f(options_of(args));
   }
+  if (command == "completion") {
+    CompletionArgs args;
+    return f(options_of(args));
+  }
   TopArgs args;
   return f(options_of(args));
 }
+
+namespace {
 
 std::string option_label(const Option& option) {
   const auto names = option_names(option);
@@ -148,7 +160,7 @@ std::string program_text(bool verbose) {
       "Commands:\n";
   for (const Page& page : kPages) text += fmt::format("  {:10}{}\n", page.name, page.summary);
   text += "\nOptions:\n";
-  text += with_options("", [&](const std::vector<Option>& o) { return options_text(o, verbose); });
+  with_options("", [&](const std::vector<Option>& o) { text += options_text(o, verbose); });
   text += "\nOther topics of mc help: mc-volume, formats\n";
   text +=
       "\nExample:\n"
@@ -167,13 +179,13 @@ std::string program_text(bool verbose) {
 
 /// One option name a line, for the test that compares the manual pages.
 std::string bare_options(std::string_view command) {
-  return with_options(command, [](const std::vector<Option>& options) {
-    std::string text;
+  std::string text;
+  with_options(command, [&](const std::vector<Option>& options) {
     for (const Option& option : options) {
       for (const std::string_view name : option_names(option)) text += fmt::format("{}\n", name);
     }
-    return text;
   });
+  return text;
 }
 
 }  // namespace
@@ -185,14 +197,18 @@ std::vector<std::string_view> command_names() {
   return names;
 }
 
+std::string_view command_summary(std::string_view command) {
+  const Page* page = page_of(command);
+  return page != nullptr ? page->summary : "this program's help";
+}
+
 std::string help_text(std::string_view command, bool verbose) {
   if (command.empty()) return program_text(verbose);
   const Page* page = page_of(command);
   if (page == nullptr) refuse_topic(command);
   std::string text = fmt::format("mc {}: {}\n\nUsage: {}\n\n{}\nOptions:\n", page->name,
                                  page->summary, page->usage, page->text);
-  text +=
-      with_options(command, [&](const std::vector<Option>& o) { return options_text(o, verbose); });
+  with_options(command, [&](const std::vector<Option>& o) { text += options_text(o, verbose); });
   if (!verbose) text += fmt::format("\nAll options: mc {} -v --help\n", page->name);
   text += fmt::format("\nExamples:\n{}", page->examples);
   return text;

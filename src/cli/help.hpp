@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "cli/args.hpp"
 
 // Help on stdout: short by default, everything with -v.
 
@@ -15,5 +18,10 @@ std::string help_text(std::string_view command, bool verbose);
 
 /// The commands, in the order help shows them.
 std::vector<std::string_view> command_names();
+/// What a command does, in a few words.
+std::string_view command_summary(std::string_view command);
+/// Calls f with the options of a command; without a name, of the program itself.
+void with_options(std::string_view command,
+                  const std::function<void(const std::vector<Option>&)>& f);
 
 }  // namespace mc::cli

@@ -32,6 +32,7 @@ int run_sample(Invocation& invocation, std::vector<std::string> words);
 int run_info(Invocation& invocation, std::vector<std::string> words);
 int run_check(Invocation& invocation, std::vector<std::string> words);
 int run_bench(Invocation& invocation, std::vector<std::string> words);
+int run_completion(Invocation& invocation, std::vector<std::string> words);
 int run_help(Invocation& invocation, std::vector<std::string> words);
 
 /// `mc --version`, with what was built in when `verbose`.

@@ -25,12 +25,14 @@ namespace {
 
 using Command = int (*)(Invocation&, std::vector<std::string>);
 
-constexpr std::array<std::pair<std::string_view, Command>, 6> kCommands{{{"extract", run_extract},
-                                                                         {"sample", run_sample},
-                                                                         {"info", run_info},
-                                                                         {"check", run_check},
-                                                                         {"bench", run_bench},
-                                                                         {"help", run_help}}};
+constexpr std::array<std::pair<std::string_view, Command>, 7> kCommands{
+    {{"extract", run_extract},
+     {"sample", run_sample},
+     {"info", run_info},
+     {"check", run_check},
+     {"bench", run_bench},
+     {"completion", run_completion},
+     {"help", run_help}}};
 
 void obey_simd_environment() {
   const char* name = std::getenv("MC_SIMD");
@@ -52,7 +54,7 @@ int run_top(const std::vector<std::string>& words) {
     print_out(version_text(args.common.verbose > 0));
   } else {
     throw Error(ErrorKind::usage, {},
-                "no command: expected extract, sample, info, check, bench or help",
+                fmt::format("no command: expected {}", enumerate(command_names())),
                 "see mc --help");
   }
   return 0;

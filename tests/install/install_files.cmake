@@ -8,7 +8,8 @@ execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}
 set(wanted include/mc/extract.hpp ${LIBDIR}/libmc_core.a ${LIBDIR}/libmc_io.a
   ${LIBDIR}/cmake/mc/mcConfig.cmake ${LIBDIR}/cmake/mc/mcConfigVersion.cmake share/doc/mc/LICENSE)
 if(HAS_PROGRAM)
-  list(APPEND wanted bin/${PROGRAM})
+  list(APPEND wanted bin/${PROGRAM} share/bash-completion/completions/${PROGRAM}
+    share/zsh/site-functions/_${PROGRAM} share/fish/vendor_completions.d/${PROGRAM}.fish)
 endif()
 if(MODULE)
   list(APPEND wanted ${LIBDIR}/mc/${MODULE})
