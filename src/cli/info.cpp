@@ -42,10 +42,34 @@ void measure_grid(const Source& source, GridInfo& grid, Invocation& invocation) 
   grid.iso_reason = iso.reason;
 }
 
+/// A FIFO, or what a shell puts in place of <(command): it gives its bytes once.
+bool opens_once(const std::string& input) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(input, ignored);
+  return input != "-" && std::filesystem::is_fifo(status);
+}
+
+/// The one grid that is taken of what opens once.
+void inspect_once(const std::vector<std::string>& inputs, const SourceOptions& options,
+                  Invocation& invocation, InputInfo& info) {
+  const Source source = open_source(inputs, options, invocation.console);
+  const Volume& volume = volume_of(source.reader);
+  info.grids.push_back({{volume, sample_name(volume.type), ""}, {}, 0, {}});
+  measure_grid(source, info.grids.front(), invocation);
+  if (!source.other_grids.empty()) {
+    invocation.console.note(fmt::format("{}: holds other grids too: {}; a FIFO shows one",
+                                        info.place, fmt::join(source.other_grids, ", ")));
+  }
+}
+
 /// Grids in the file's order; `#n` names the n-th of them whatever its name.
 void inspect(const std::vector<std::string>& inputs, const SourceOptions& options,
              Invocation& invocation, InputInfo& info) {
   info.place = inputs.front() == "-" ? "<stdin>" : inputs.front();
+  if (inputs.size() == 1 && opens_once(inputs.front())) {
+    inspect_once(inputs, options, invocation, info);
+    return;
+  }
   const auto grids = describe_source(inputs, options, invocation.console);
   for (const GridDescription& description : grids) info.grids.push_back({description, {}, 0, {}});
   for (std::size_t n = 0; n < info.grids.size(); ++n) {

@@ -27,6 +27,8 @@ cat ball.raw | mc extract - $RAW --iso 20,30 -v -o p.obj 2>&1 | grep copied
 cat ball.raw | mc extract - $RAW --iso 20 --region 0,0,0:7,7,7 -v -o p.stl 2>&1 | grep copied
 cat ball.raw | mc extract - --dims 16,16 --type u8 --iso 20 -v -o q.stl 2>&1 | grep copied
 cat f.nrrd | mc info - -q | head -1
+cat f.nrrd > fifo &
+mc info fifo -q | grep -e fifo -e range
 cat ball.raw | run extract - $RAW -q -o no.ply 2>&1 | sed 's/mc-spool-....../mc-spool-XXXXXX/'
 
 echo "the data's range"
