@@ -158,7 +158,7 @@ std::string program_text(bool verbose) {
       "mc turns scalar volumes into triangle meshes.\n\n"
       "Usage: mc COMMAND ... | mc --version [-v] | mc help [TOPIC]\n\n"
       "Commands:\n";
-  for (const Page& page : kPages) text += fmt::format("  {:10}{}\n", page.name, page.summary);
+  for (const Page& page : kPages) text += fmt::format("  {:12}{}\n", page.name, page.summary);
   text += "\nOptions:\n";
   with_options("", [&](const std::vector<Option>& o) { text += options_text(o, verbose); });
   text += "\nOther topics of mc help: mc-volume, formats\n";

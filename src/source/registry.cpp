@@ -78,6 +78,7 @@ Decision decide_by_series(const InputFiles& inputs) {
 Decision decide_by_file(const InputFiles& inputs, const SourceOptions& options) {
   const std::string& path = inputs.paths.front();
   InputFile file(path);
+  file.refuse_device();
   const bool wants_raw = !options.dims.empty() || options.type.has_value();
   const std::optional<Format> format = recognised(file, path);
   if (!format && wants_raw) {

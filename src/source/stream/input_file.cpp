@@ -56,4 +56,11 @@ InputFile::InputFile(const std::string& path, Bytes bytes)
   }
 }
 
+void InputFile::refuse_device() const {
+  if (is_device_) {
+    throw Error(ErrorKind::input, place_, "is a device, but a file or a pipe was expected",
+                "raw data from a device needs all three --dims and --type");
+  }
+}
+
 }  // namespace mc::source

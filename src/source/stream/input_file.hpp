@@ -29,13 +29,14 @@ class InputFile {
   [[nodiscard]] Packing packing() const { return packing_; }
   /// Whether its bytes, as they are read, lie in a file and can be mapped.
   [[nodiscard]] bool mappable() const { return whole_file_ && packing_ == Packing::none; }
-  /// Whether it is a character device, which may never end.
-  [[nodiscard]] bool is_device() const { return is_device_; }
   /// Of a file, as it is stored; 0: not known.
   [[nodiscard]] std::uint64_t stored_bytes() const { return stored_bytes_; }
 
   /// Its first n bytes, fewer where it has not so many.
   [[nodiscard]] std::string_view head(std::size_t n) { return stream_->peek(n); }
+
+  /// For who reads to the end. Errors   input: it is a device, which may have none.
+  void refuse_device() const;
 
   /// All of its bytes, in order.
   [[nodiscard]] std::unique_ptr<ByteStream> stream() && { return std::move(stream_); }

@@ -59,8 +59,8 @@ auto extremes_of(const std::byte* at, std::size_t n) {
   }
   Extremes<N> out;
   for (std::size_t l = 0; l < kLanes; ++l) {
-    out.add(lo[l]);
-    out.add(hi[l]);
+    out.lo = std::min(out.lo, lo[l]);
+    out.hi = std::max(out.hi, hi[l]);
     out.n_nan += n_nan[l];
   }
   for (; i < n; ++i) out.add(number_at<T, Swap>(at + i * sizeof(T)));
