@@ -23,6 +23,7 @@ struct SinkOptions {
   std::string to;      ///< "ply", "obj", "stl", "glb", "gltf"; "vdb", "nrrd", "raw", "exr", "png";
                        ///< empty: by extension
   bool force = false;  ///< replace an existing file; write binary to a terminal
+  bool sync = false;   ///< finish() waits until data and names are on the disk
   bool ascii = false;  ///< PLY, STL: text form
   std::optional<Precision>
       precision;  ///< PLY coordinates; unset: f32 unless it would move a vertex
@@ -72,8 +73,10 @@ class PictureSink {
 /// rounded). "-" is stdout. Errors   as open_mesh_sink().
 std::unique_ptr<PictureSink> open_picture_sink(const std::string& path, const SinkOptions& options);
 
-/// Unlinks every partial file of this process. Async-signal-safe enough for a signal thread: takes
-/// no lock that a blocked writer holds.
+/// Unlinks every partial file of this process, and puts back what several files that belong
+/// together were about to replace. For a process that is about to end: whoever then wants to make
+/// or rename an output waits for that end. Async-signal-safe enough for a signal thread: takes no
+/// lock that a blocked writer holds, and waits at most a tenth of a second for a blocked rename.
 void unlink_partials() noexcept;
 
 }  // namespace mc

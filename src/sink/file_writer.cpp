@@ -127,6 +127,19 @@ void FileWriter::read_flushed(std::uint64_t offset, std::span<std::byte> bytes) 
   }
 }
 
+void FileWriter::sync() {
+  flush();
+  while (fd_ >= 0 && ::fsync(fd_) != 0) {
+    const bool is_stream = errno == EINVAL || errno == ENOTSUP || errno == EROFS;
+    if (!offsets_ && is_stream) {
+      return;
+    }
+    if (errno != EINTR) {
+      cannot("sync", place_);
+    }
+  }
+}
+
 void FileWriter::close() {
   flush();
   buffer_.reset();  // a series of files has them all until the last is written

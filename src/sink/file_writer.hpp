@@ -45,6 +45,8 @@ class FileWriter {
   void read(std::uint64_t offset, std::span<std::byte> bytes);
   /// The same from any thread, where nothing is left in the buffer.
   void read_flushed(std::uint64_t offset, std::span<std::byte> bytes) const;
+  /// Flushes, and waits until all is on the disk, where there is one below.
+  void sync();
   /// Flushes and closes; a network file system may only now say that it is full.
   void close();
 

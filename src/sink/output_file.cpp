@@ -2,22 +2,20 @@
 #include "sink/output_file.hpp"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cerrno>
-#include <climits>
 #include <cstdlib>
-#include <random>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "mc/base.hpp"
 #include "sink/file_writer.hpp"
-#include "sink/partial_names.hpp"
+#include "sink/partial_file.hpp"
 
 // The file layer below every sink. Guarantees: a regular file appears under its name only when it
 // is complete; whatever fails before that leaves no trace; every failed system call comes out as
@@ -27,80 +25,22 @@ namespace mc::sink {
 
 namespace {
 
-constexpr mode_t kNewFileMode = 0666;  // less the umask
-
 [[noreturn]] void refuse_existing(const std::string& place) {
   throw Error(ErrorKind::output, place, "exists", "add --force to replace it");
-}
-
-std::string folder_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
-}
-
-/// The file that `path` names in the end, which need not exist.
-std::string followed(const std::string& path) {
-  constexpr int kMostLinks = 40;  // what the kernel allows
-  std::string at = path;
-  for (int i = 0; i < kMostLinks; ++i) {
-    std::array<char, PATH_MAX> link{};
-    const ssize_t n = ::readlink(at.c_str(), link.data(), link.size());
-    if (n < 0) {
-      return at;
-    }
-    const std::string target(link.data(), static_cast<std::size_t>(n));
-    at = target.starts_with('/') ? target : folder_of(at) + "/" + target;
-  }
-  errno = ELOOP;
-  cannot("create", path);
-}
-
-/// "NAME.partial-" and four random letters; a long name is cut to what file systems allow.
-std::string partial_name(const std::string& target) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
-  constexpr std::size_t kLongestBase = NAME_MAX - 16;
-  const std::size_t base = target.rfind('/') + 1;  // npos + 1 == 0
-  std::string name = target.substr(0, std::min(target.size(), base + kLongestBase)) + ".partial-";
-  std::random_device random;
-  std::uniform_int_distribution<std::size_t> letter(0, kLetters.size() - 1);
-  for (int i = 0; i < 4; ++i) {
-    name += kLetters[letter(random)];
-  }
-  return name;
-}
-
-/// Creates a partial file for `target`; returns its descriptor and sets `name`.
-int create_partial(const std::string& target, const std::string& place, std::string& name) {
-  constexpr int kTries = 100;
-  for (int i = 0; i < kTries; ++i) {
-    name = partial_name(target);
-    const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
-    if (fd >= 0) {
-      return fd;
-    }
-    if (errno != EEXIST && errno != EINTR) {
-      break;
-    }
-  }
-  const bool no_folder = errno == ENOENT || errno == ENOTDIR;
-  cannot("create", place,
-         no_folder ? "create the folder " + folder_of(target) + " first"
-                   : "choose a folder that can be written");
 }
 
 }  // namespace
 
 struct OutputFile::State {
   Options options;
-  std::string target;   // what is replaced in the end; empty when written in place
-  std::string partial;  // likewise
-  bool done = false;
+  std::optional<PartialFile> partial;  // none when written in place
   std::unique_ptr<FileWriter> writer;
 
   void open(const std::string& path, const std::string& place);
   void open_in_place(const std::string& path, const std::string& place);
-  void rename_into_place();
-  void drop_partial() noexcept;
+  void close();
+  static void sync_folders(std::span<State* const> files);
+  static void commit_together(std::span<State* const> files);
 };
 
 void OutputFile::State::open_in_place(const std::string& path, const std::string& place) {
@@ -136,58 +76,60 @@ void OutputFile::State::open(const std::string& path, const std::string& place) 
   if (exists && !options.force) {
     refuse_existing(place);
   }
-  target = followed(path);
-  const int fd = create_partial(target, place, partial);
-  register_partial(partial);
-  writer = std::make_unique<FileWriter>(fd, true, place);
+  partial.emplace(path, place);
+  writer = std::make_unique<FileWriter>(partial->fd(), true, place);
   if (exists) {  // some file systems have no permissions to keep
-    static_cast<void>(::fchmod(fd, status.st_mode & 07777));
+    static_cast<void>(::fchmod(partial->fd(), status.st_mode & 07777));
   }
 }
 
-void OutputFile::State::rename_into_place() {
-  const std::string& place = writer->place();
-  // Without force the kernel itself refuses to replace; file systems that cannot are asked first.
-  if (!options.force) {
-    if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, target.c_str(), RENAME_NOREPLACE) == 0) {
-      return;
-    }
-    struct stat status {};
-    if (errno == EEXIST || ::lstat(target.c_str(), &status) == 0) {
-      refuse_existing(place);
+void OutputFile::State::sync_folders(std::span<State* const> files) {
+  std::set<std::string> folders;
+  for (const State* file : files) {
+    if (file->options.sync) {
+      folders.insert(folder_of(file->partial->target()));
     }
   }
-  if (::rename(partial.c_str(), target.c_str()) != 0) {
-    cannot("rename into place", place);
-  }
+  std::for_each(folders.begin(), folders.end(), sync_folder);
 }
 
-void OutputFile::State::drop_partial() noexcept {
-  if (!partial.empty()) {
-    ::unlink(partial.c_str());
-    forget_partial(partial);
-    partial.clear();
+void OutputFile::State::commit_together(std::span<State* const> files) {
+  std::vector<PartialFile*> renamed;
+  renamed.reserve(files.size());
+  try {
+    for (State* file : files) {
+      if (file == files.back()) {
+        sync_folders(files.first(files.size() - 1));
+      }
+      file->partial->rename_for_now(file->options.force);
+      renamed.push_back(&*file->partial);
+    }
+    sync_folders(files);
+  } catch (...) {
+    for (PartialFile* file : renamed) {
+      file->undo();
+    }
+    throw;
   }
+  PartialFile::confirm_all(renamed);
+}
+
+void OutputFile::State::close() {
+  if (options.sync) {
+    writer->sync();
+  }
+  writer->close();
 }
 
 OutputFile::OutputFile(const std::string& path, Options options)
     : state_(std::make_unique<State>()) {
   state_->options = options;
-  try {
-    state_->open(path, path == "-" ? "<stdout>" : path);
-  } catch (...) {
-    state_->drop_partial();
-    throw;
-  }
+  state_->open(path, path == "-" ? "<stdout>" : path);
 }
 
-OutputFile::~OutputFile() {
-  if (!state_->done) {
-    state_->drop_partial();
-  }
-}
+OutputFile::~OutputFile() = default;
 
-bool OutputFile::seekable() const { return !state_->partial.empty(); }
+bool OutputFile::seekable() const { return state_->partial.has_value(); }
 
 const std::string& OutputFile::place() const { return state_->writer->place(); }
 
@@ -195,7 +137,7 @@ std::uint64_t OutputFile::size() const { return state_->writer->size(); }
 
 std::string OutputFile::scratch_folder() const {
   if (seekable()) {
-    return folder_of(state_->target);
+    return folder_of(state_->partial->target());
   }
   const char* tmpdir = std::getenv("TMPDIR");
   return tmpdir != nullptr && *tmpdir != '\0' ? tmpdir : "/tmp";
@@ -232,38 +174,22 @@ void OutputFile::shift(std::uint64_t offset, std::uint64_t n_bytes) {
   }
 }
 
-void OutputFile::close() { state_->writer->close(); }
+void OutputFile::close() { state_->close(); }
 
 void OutputFile::commit() { commit_all({this}); }
 
 void OutputFile::commit_all(std::span<OutputFile* const> files) {
+  std::vector<State*> named;
   for (OutputFile* file : files) {
-    file->state_->writer->close();
-  }
-  std::vector<State*> renamed;
-  renamed.reserve(files.size());
-  try {
-    for (OutputFile* file : files) {
-      State& state = *file->state_;
-      if (!state.partial.empty()) {
-        state.rename_into_place();
-        renamed.push_back(&state);
-        // Until the last is in place, an interrupt takes the others away again.
-        rename_partial(state.partial, state.target);
-      }
+    file->state_->close();
+    if (file->state_->partial) {
+      named.push_back(file->state_.get());
     }
-  } catch (...) {
-    for (State* state : renamed) {
-      state->partial = state->target;
-      state->drop_partial();
-    }
-    throw;
   }
-  for (State* state : renamed) {
-    forget_partial(state->target);
-  }
-  for (OutputFile* file : files) {
-    file->state_->done = true;
+  if (named.size() == 1 && !named.front()->options.sync) {
+    named.front()->partial->rename_into_place(named.front()->options.force);
+  } else {
+    State::commit_together(named);
   }
 }
 

@@ -20,6 +20,7 @@ class OutputFile {
  public:
   struct Options {
     bool force = false;  ///< replace an existing file; allow binary on a terminal
+    bool sync = false;   ///< commit() waits for the disk
     bool binary = true;
   };
 
@@ -58,9 +59,11 @@ class OutputFile {
   /// Flushes and closes; what is left to do is commit(). A series may be more files than a process
   /// may have open.
   void close();
-  /// Flushes, closes, renames.
+  /// Flushes, closes, renames; with `sync`, its bytes are on the disk before its name is, and then
+  /// that.
   void commit();
-  /// Commits several files that belong together; the one that names the others comes last.
+  /// Commits several files that belong together, all or none; the one that names the others comes
+  /// last, with `sync` when the names of the others are on the disk.
   static void commit_all(std::span<OutputFile* const> files);
   static void commit_all(std::initializer_list<OutputFile*> files) {
     commit_all(std::span<OutputFile* const>(files.begin(), files.size()));

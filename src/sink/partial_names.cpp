@@ -3,31 +3,32 @@
 
 #include <unistd.h>
 
-#include <mutex>
+#include <chrono>
+#include <cstdio>
+#include <map>
 #include <new>
-#include <set>
 
 #include "mc/sink.hpp"
 
-// A set that is never destroyed, so that it outlives every static object. The mutex is held while
-// names are looked up or changed, and by unlink_partials(), never while bytes are written: a writer
-// that is blocked cannot block the signal thread.
+// A map that is never destroyed, so that it outlives every static object.
 
 namespace mc {
 
 namespace {
 
-std::mutex names_mutex;
+using namespace std::chrono_literals;
 
-std::set<std::string>& names() {
-  static auto& all = *new std::set<std::string>();
+std::timed_mutex names_mutex;
+
+/// Each name, and what is to have it again; empty: it is to be unlinked.
+std::map<std::string, std::string>& names() {
+  static auto& all = *new std::map<std::string, std::string>();
   return all;
 }
 
-/// Without memory for a name, only its owner will remove the file.
-void insert(const std::string& name) noexcept {
+void note(const std::string& name, const std::string& target) noexcept {
   try {
-    names().insert(name);
+    names()[name] = target;
   } catch (const std::bad_alloc&) {
     return;
   }
@@ -37,30 +38,26 @@ void insert(const std::string& name) noexcept {
 
 namespace sink {
 
-void register_partial(const std::string& name) noexcept {
-  const std::scoped_lock lock(names_mutex);
-  insert(name);
+PartialNames::PartialNames() : lock_(names_mutex) {}
+
+void PartialNames::add(const std::string& name) noexcept { note(name, {}); }
+
+void PartialNames::add_former(const std::string& name, const std::string& target) noexcept {
+  note(name, target);
 }
 
-void rename_partial(const std::string& name, const std::string& now) noexcept {
-  const std::scoped_lock lock(names_mutex);
-  names().erase(name);
-  insert(now);
-}
-
-void forget_partial(const std::string& name) noexcept {
-  const std::scoped_lock lock(names_mutex);
-  names().erase(name);
-}
+void PartialNames::forget(const std::string& name) noexcept { names().erase(name); }
 
 }  // namespace sink
 
 void unlink_partials() noexcept {
-  const std::scoped_lock lock(names_mutex);
-  for (const std::string& name : names()) {
-    ::unlink(name.c_str());
+  // A rename that the system has blocked must not keep the process from ending: nothing changes the
+  // names while it is blocked.
+  static_cast<void>(names_mutex.try_lock_for(100ms));
+  for (const auto& [name, target] : names()) {
+    if (!target.empty()) std::rename(name.c_str(), target.c_str());
+    ::unlink(name.c_str());  // also where both were one file, which rename() leaves alone
   }
-  names().clear();
 }
 
 }  // namespace mc

@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -224,13 +225,36 @@ TEST(OutputFile, CommitsSeveralOrNone) {
   EXPECT_EQ(read_all(folder / "a.gltf"), "in the way");
 }
 
+/// What a signal does, in a process of its own: it is the end of one.
+[[noreturn]] void interrupt() {
+  unlink_partials();
+  std::_Exit(0);
+}
+
 TEST(OutputFile, CommitsSeveral) {
   const TemporaryFolder folder;
   OutputFile first(folder / "a.bin", {});
   OutputFile second(folder / "a.gltf", {});
   OutputFile::commit_all({&first, &second});
-  unlink_partials();
+  EXPECT_EXIT(interrupt(), testing::ExitedWithCode(0), "");
   EXPECT_EQ(folder.n_entries(), 2U);
+}
+
+TEST(OutputFile, PutsBackWhatSeveralWereToReplace) {
+  const TemporaryFolder folder;
+  write_all(folder / "a.bin", "old");
+  OutputFile first(folder / "a.bin", {.force = true});
+  OutputFile second(folder / "a.gltf", {});
+  first.append("new");
+  write_all(folder / "a.gltf", "in the way");
+  EXPECT_EQ(error_text(
+                [&] {
+                  OutputFile::commit_all({&first, &second});
+                },
+                ErrorKind::output),
+            folder / "a.gltf: exists; add --force to replace it");
+  EXPECT_EQ(read_all(folder / "a.bin"), "old");
+  EXPECT_EQ(read_all(folder / "a.gltf"), "in the way");
 }
 
 TEST(OutputFile, InterruptTakesPartialsAway) {
@@ -238,7 +262,7 @@ TEST(OutputFile, InterruptTakesPartialsAway) {
   const OutputFile first(folder / "a", {});
   const OutputFile second(folder / "b", {});
   EXPECT_EQ(folder.n_entries(), 2U);
-  unlink_partials();
+  EXPECT_EXIT(interrupt(), testing::ExitedWithCode(0), "");
   EXPECT_EQ(folder.n_entries(), 0U);
 }
 
