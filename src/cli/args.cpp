@@ -117,6 +117,7 @@ std::vector<Option> options_of(ExtractArgs& a) {
        {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
        {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
        {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
+       {"--sync", "", "be done only when the output is on the disk", false, &a.sync},
        {"--allow-empty", "", "a mesh without triangles is a success", false, &a.allow_empty},
        {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
         &a.no_skip}});
@@ -139,8 +140,9 @@ std::vector<Option> options_of(SampleArgs& a) {
       {"--bits", "N", "PNG: 8 or 16 (default)", false, &a.bits, "8 16"},
   };
   append(all, source_options(a.source));
-  append(all, {{"--force", "", "replace an existing output; write binary to a terminal", true,
-                &a.force}});
+  append(all,
+         {{"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
+          {"--sync", "", "be done only when the output is on the disk", false, &a.sync}});
   append(all, run_options(a.common, a.memory));
   append(all, talk_options(a.common));
   return all;

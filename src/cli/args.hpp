@@ -41,14 +41,14 @@ struct ExtractArgs {
   bool ascii = false;
   Text precision;
   Text memory, report;
-  bool dry_run = false, force = false, allow_empty = false, no_skip = false;
+  bool dry_run = false, force = false, sync = false, allow_empty = false, no_skip = false;
 };
 
 struct SampleArgs {
   SourceArgs source;
   CommonArgs common;
   Text output, to, region, slice, range, bits, memory;
-  bool force = false;
+  bool force = false, sync = false;
 };
 
 struct InfoArgs {

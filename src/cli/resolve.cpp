@@ -216,6 +216,7 @@ void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inp
   check_output_name(args.output);
   if (args.output && args.out_dir) refuse("--out-dir", "contradicts --output", "give one of them");
   plan.sink.force = args.force;
+  plan.sink.sync = args.sync;
   plan.sink.to = args.to.value_or("");
   plan.batch = args.out_dir.has_value();
   if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
@@ -340,6 +341,7 @@ SamplePlan resolve(const SampleArgs& args) {
                           "." + args.to.value_or("nrrd"));
   }
   plan.sink.force = args.force;
+  plan.sink.sync = args.sync;
   plan.sink.to = args.to.value_or("");
   plan.format = output_format(*args.output, plan.sink);
   if (is_mesh_format(plan.format)) {

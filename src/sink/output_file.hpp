@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "mc/sink.hpp"
+
 // Files that appear whole or not at all. An output is written as NAME.partial-XXXX beside its name
 // and renamed by commit(); what is no regular file (a device, a FIFO, stdout) is written in place.
 
@@ -73,6 +75,11 @@ class OutputFile {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// What the caller of a sink asked, for one of its files.
+inline OutputFile::Options output_options(const SinkOptions& options, bool binary) {
+  return {.force = options.force, .sync = options.sync, .binary = binary};
+}
 
 /// An unlinked temporary file beside an output (or in $TMPDIR when that is a stream).
 class SpoolFile {

@@ -69,6 +69,7 @@ def try_all(mc, faults, folder, said, words, error, forced=False, stdin=b"", **m
         if call is None:
             faults.expect(done.status == 0 and folder.contents() == wanted, said, "without a fault",
                           done.stderr)
+            faults.expect(n > 1, said, "no call to fail")
             return n - 1
         check(faults, said, done, call, error, before, folder.contents(), wanted)
         if done.status == 0:

@@ -124,7 +124,7 @@ class Program:
                               cwd=folder.out, env=self.environment(folder, **faults),
                               timeout=timeout, check=False)
         calls = []
-        if log.exists():
+        if faults:  # the log is there, or the library was not loaded
             for line in log.read_text().splitlines():
                 number, *rest = line.split("\t")
                 calls.append(Call(int(number), *rest))

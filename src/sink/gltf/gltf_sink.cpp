@@ -116,13 +116,13 @@ class GltfSink final : public MeshSink {
 };
 
 GltfSink::GltfSink(const std::string& path, const SinkOptions& options, bool is_glb)
-    : options_(options), is_glb_(is_glb), main_(path, {.force = options.force, .binary = is_glb}) {
+    : options_(options), is_glb_(is_glb), main_(path, output_options(options, is_glb)) {
   if (!is_glb) {
     if (!main_.seekable()) {
       throw Error(ErrorKind::usage, main_.place(),
                   "glTF is two files and cannot be written to a stream", "use --to glb");
     }
-    bin_.emplace(bin_path(path), OutputFile::Options{.force = options.force});
+    bin_.emplace(bin_path(path), output_options(options, true));
   } else if (!main_.seekable()) {
     body_.emplace(main_);
   }

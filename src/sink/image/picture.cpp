@@ -15,7 +15,7 @@ namespace {
 class ImageSink final : public PictureSink {
  public:
   ImageSink(const std::string& path, const SinkOptions& options, sink::ImageKind kind)
-      : options_(options), kind_(kind), file_(path, {.force = options.force, .binary = true}) {}
+      : options_(options), kind_(kind), file_(path, sink::output_options(options, true)) {}
 
   void write(const Picture& picture,
              const std::vector<std::pair<std::string, std::string>>& texts) override {

@@ -115,8 +115,8 @@ class SeriesSink final : public VolumeSink {
 
  private:
   void add_file() {
-    files_.push_back(std::make_unique<OutputFile>(
-        name_.slice(n_written_), OutputFile::Options{.force = options_.force, .binary = true}));
+    files_.push_back(
+        std::make_unique<OutputFile>(name_.slice(n_written_), output_options(options_, true)));
   }
   void pack(const std::byte* plane, std::size_t row_stride_bytes, std::int32_t index,
             Buffer<std::byte>& out) const {

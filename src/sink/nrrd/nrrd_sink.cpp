@@ -16,7 +16,7 @@ namespace {
 class NrrdSink final : public VolumeSink {
  public:
   NrrdSink(const std::string& path, const SinkOptions& options)
-      : options_(options), file_(path, {.force = options.force, .binary = true}) {}
+      : options_(options), file_(path, output_options(options, true)) {}
 
   void begin(const Volume& volume) override {
     file_.append(nrrd_header(volume, options_));

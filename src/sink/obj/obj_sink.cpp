@@ -24,7 +24,7 @@ namespace {
 class ObjSink final : public MeshSink {
  public:
   ObjSink(const std::string& path, const SinkOptions& options)
-      : out_(path, {.force = options.force, .binary = false}) {
+      : out_(path, output_options(options, false)) {
     for (const auto& [key, value] : options.provenance) {
       out_.append("# " + on_one_line(key) + ": " + on_one_line(value) + "\n");
     }

@@ -29,7 +29,7 @@ using Ids = std::array<std::uint32_t, 3>;
 class PlySink final : public MeshSink {
  public:
   PlySink(const std::string& path, const SinkOptions& options)
-      : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
+      : options_(options), out_(path, output_options(options, !options.ascii)) {}
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;

@@ -23,10 +23,9 @@ class RawSink final : public VolumeSink {
   RawSink(const std::string& path, const SinkOptions& options)
       : options_(options),
         name_(std::filesystem::path(path).filename().string()),
-        samples_file_(path, {.force = options.force, .binary = true}) {
+        samples_file_(path, output_options(options, true)) {
     if (samples_file_.seekable()) {  // what is written in place has no name to keep a header by
-      header_file_.emplace(sidecar_of(path),
-                           OutputFile::Options{.force = options.force, .binary = false});
+      header_file_.emplace(sidecar_of(path), output_options(options, false));
     }
   }
 

@@ -98,7 +98,7 @@ void print_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::by
 class StlSink final : public MeshSink {
  public:
   StlSink(const std::string& path, const SinkOptions& options)
-      : options_(options), out_(path, {.force = options.force, .binary = !options.ascii}) {}
+      : options_(options), out_(path, output_options(options, !options.ascii)) {}
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;

@@ -25,7 +25,7 @@ class VdbSink final : public VolumeSink {
  public:
   VdbSink(const std::string& path, const SinkOptions& options)
       : options_(options),
-        file_(path, {.force = options.force, .binary = true}),
+        file_(path, output_options(options, true)),
         writer_(open_vdb_writer(file_.place())) {}
 
   void begin(const Volume& volume) override { writer_->begin(volume); }
