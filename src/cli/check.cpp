@@ -69,6 +69,7 @@ std::string lines(const std::string& path, const MeshReport& r, bool must_be_clo
 /// One mesh; returns 7 when it is defective.
 int check_one(const std::string& path, const CheckArgs& args) {
   const MeshReport report = check_mesh(read_mesh(path));
+  refuse_changed_inputs();
   const bool defective = report.defective(args.closed);
   print_out(args.json ? to_json(path, report, defective) + "\n" : lines(path, report, args.closed));
   return defective ? static_cast<int>(ErrorKind::defect) : 0;

@@ -277,6 +277,7 @@ void Extraction::write() {
   timed("extract", [&] {
     const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
     for (const Iso& iso : isos_) report_.totals.push_back(run_one(iso, *sink));
+    refuse_changed_inputs();
     sink->finish();
   });
   for (const MeshTotals& totals : report_.totals) {

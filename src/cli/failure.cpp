@@ -7,12 +7,30 @@
 #include <new>
 
 #include "mc/base.hpp"
+#include "mc/source.hpp"
 
 namespace mc::cli {
 
-std::optional<Failure> attempt(const std::function<void()>& work) {
+namespace {
+
+/// Whatever went wrong: where an input changed meanwhile, that is what is to be told.
+void run_on_inputs(const std::function<void()>& work) {
+  forget_past_inputs();
   try {
     work();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    refuse_changed_inputs();
+    throw;
+  }
+}
+
+}  // namespace
+
+std::optional<Failure> attempt(const std::function<void()>& work) {
+  try {
+    run_on_inputs(work);
     return std::nullopt;
   } catch (const Error& e) {
     return Failure{static_cast<int>(e.kind()), e.lines()};

@@ -156,7 +156,10 @@ int run_info(Invocation& invocation, std::vector<std::string> words) {
   bool first = true;
   for (const auto& inputs : grouped(args.source)) {
     InputInfo info;
-    const auto failure = attempt([&] { inspect(inputs, source, invocation, info); });
+    const auto failure = attempt([&] {
+      inspect(inputs, source, invocation, info);
+      refuse_changed_inputs();
+    });
     if (failure) {
       const int this_status = show(invocation.console, *failure);
       if (status == 0) status = this_status;

@@ -4,6 +4,7 @@
 #include <csignal>
 
 #include "mc/sink.hpp"
+#include "mc/source.hpp"
 
 namespace mc::cli {
 
@@ -33,6 +34,18 @@ void die_by(int signal) {
   ::raise(signal);
 }
 
+void on_bus_error(int signal, siginfo_t* info, void* /*context*/) {
+  if (!recover_input(info->si_addr)) die_by(signal);
+}
+
+/// In every thread: the one that reads gets the signal.
+void recover_inputs() {
+  struct sigaction action {};
+  action.sa_sigaction = on_bus_error;
+  action.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &action, nullptr);
+}
+
 }  // namespace
 
 SignalThread::SignalThread(std::stop_source& stop) {
@@ -40,6 +53,7 @@ SignalThread::SignalThread(std::stop_source& stop) {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   // SIGPIPE goes to the thread that wrote, so a handler has to take it.
   std::signal(SIGPIPE, die_by);
+  recover_inputs();
   thread_ = std::thread([this, set, &stop] {
     for (;;) {
       int signal = 0;

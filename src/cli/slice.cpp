@@ -13,6 +13,7 @@
 #include "cli/values.hpp"
 #include "field/visit_type.hpp"
 #include "mc/sink.hpp"
+#include "mc/source.hpp"
 
 // `mc sample --slice`: one plane of samples, gathered from the planes that a reader hands out.
 
@@ -210,6 +211,7 @@ void write_slice(const VolumeReader& from, const SamplePlan& plan, Invocation& i
       std::visit([&](const auto& reader) { return view(*reader); }, from);
   const std::unique_ptr<PictureSink> sink = open_picture_sink(plan.job.output, plan.sink);
   const Picture picture = read_plane(*thin, volume, plane.axis, plan, invocation);
+  refuse_changed_inputs();
   if (plan.format == "png") {
     write_grey(picture, *plan.slice, plan.job.output, *sink, invocation.console);
   } else {

@@ -6,6 +6,7 @@
 
 #include "cli/planes_a_read.hpp"
 #include "mc/sink.hpp"
+#include "mc/source.hpp"
 
 // Plane by plane, or whole where both ends are sparse.
 
@@ -62,6 +63,7 @@ void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
 void write_volume(const VolumeReader& from, const SamplePlan& plan, Invocation& invocation) {
   const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
   std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, from);
+  refuse_changed_inputs();
   sink->finish();
   invocation.console.end_stage();
 }

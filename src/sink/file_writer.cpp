@@ -19,11 +19,25 @@ namespace mc::sink {
 
 void cannot(std::string_view verb, const std::string& place, std::string_view remedy) {
   const int error = errno;
-  throw Error(ErrorKind::output, place,
+  throw Error(error == ENOMEM ? ErrorKind::limit : ErrorKind::output, place,
               std::string("cannot ").append(verb).append(": ").append(
                   std::generic_category().message(error)),
               remedy);
 }
+
+namespace {
+
+/// Reads a byte of every page. Of a mapped input that became shorter, the system would not write
+/// what is gone; touched, it raises SIGBUS, whose handler puts zeros there.
+void touch(std::span<const std::byte> bytes) {
+  constexpr std::size_t kLeastPage = 4096;
+  for (std::size_t at = 0; at < bytes.size(); at += kLeastPage) {
+    static_cast<void>(*static_cast<const volatile std::byte*>(&bytes[at]));
+  }
+  static_cast<void>(*static_cast<const volatile std::byte*>(&bytes.back()));
+}
+
+}  // namespace
 
 FileWriter::FileWriter(int fd, bool offsets, std::string place)
     : fd_(fd), offsets_(offsets), place_(std::move(place)) {}
@@ -155,6 +169,10 @@ void FileWriter::put(std::uint64_t offset, std::span<const std::byte> bytes) con
                           ? ::pwrite(fd_, bytes.data(), bytes.size(), static_cast<off_t>(offset))
                           : ::write(fd_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) {
+      continue;
+    }
+    if (n < 0 && errno == EFAULT) {
+      touch(bytes);
       continue;
     }
     if (n < 0) {

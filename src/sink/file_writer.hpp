@@ -15,7 +15,8 @@ namespace mc::sink {
 /// What is gathered before a write; larger pieces go straight through.
 constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 
-/// Throws Error(output) "PLACE: cannot VERB: SYSTEM TEXT; REMEDY" for errno as it is.
+/// Throws Error(output; limit, where memory is wanting) "PLACE: cannot VERB: SYSTEM TEXT; REMEDY"
+/// for errno as it is.
 [[noreturn]] void cannot(std::string_view verb, const std::string& place,
                          std::string_view remedy = {});
 

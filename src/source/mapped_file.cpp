@@ -17,13 +17,18 @@ namespace {
 
 [[noreturn]] void cannot(std::string_view verb, const std::string& place) {
   const int error = errno;
-  throw Error(ErrorKind::input, place,
-              "cannot " + std::string(verb) + ": " + std::generic_category().message(error));
+  const bool no_memory = error == ENOMEM;
+  throw Error(no_memory ? ErrorKind::limit : ErrorKind::input, place,
+              "cannot " + std::string(verb) + ": " + std::generic_category().message(error),
+              no_memory ? "allow the program more memory" : "");
 }
 
 /// A copy on disk, at most `most_bytes` and one more of it.
 Descriptor spooled(InputFile input, std::uint64_t most_bytes, Progress& progress) {
-  if (most_bytes == MappedFile::kUnlimited) input.refuse_device();
+  if (input.is_device() && most_bytes == MappedFile::kUnlimited) {
+    throw Error(ErrorKind::input, input.place(), "is a device, but a file or a pipe was expected",
+                "raw data from a device needs all three --dims and --type");
+  }
   const bool packed = input.packing() != Packing::none;
   const bool is_stdin = input.is_stdin();
   const std::string place = input.place();
@@ -70,9 +75,11 @@ void MappedFile::map(const Descriptor& file) {
     cannot("map", place_);
   }
   data_ = static_cast<const std::byte*>(mapping);
+  live_ = LiveMapping(bytes(), status, place_);
 }
 
 MappedFile::~MappedFile() {
+  live_ = {};
   if (data_ != nullptr) {
     ::munmap(const_cast<std::byte*>(data_), size_);
   }
@@ -81,12 +88,14 @@ MappedFile::~MappedFile() {
 MappedFile::MappedFile(MappedFile&& other) noexcept
     : place_(std::move(other.place_)),
       data_(std::exchange(other.data_, nullptr)),
-      size_(std::exchange(other.size_, 0)) {}
+      size_(std::exchange(other.size_, 0)),
+      live_(std::move(other.live_)) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
   std::swap(place_, other.place_);
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
+  std::swap(live_, other.live_);
   return *this;
 }
 

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "mc/base.hpp"
+#include "source/live_mapping.hpp"
 #include "source/stream/input_file.hpp"
 
 // A file's bytes, read-only. Regular files are mapped; what cannot be mapped (a pipe, a FIFO,
@@ -23,7 +24,8 @@ class MappedFile {
 
   /// "-" is stdin. A stream is read up to `most_bytes` and one more, which tells that it is longer;
   /// a device, which may never end, only with such a limit. Errors   input (missing, a folder,
-  /// unreadable, empty, an endless device, damaged where packed); output: no room for a copy.
+  /// unreadable, empty, an endless device, damaged where packed); output: no room for a copy;
+  /// limit: no address space.
   explicit MappedFile(const std::string& path, std::uint64_t most_bytes = kUnlimited);
   /// The same of what has been opened; a detail says when a copy is made.
   explicit MappedFile(InputFile input, std::uint64_t most_bytes = kUnlimited,
@@ -47,6 +49,7 @@ class MappedFile {
   std::string place_;
   const std::byte* data_ = nullptr;
   std::size_t size_ = 0;
+  LiveMapping live_;
 };
 
 }  // namespace mc::source

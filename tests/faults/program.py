@@ -123,12 +123,29 @@ class Program:
         done = subprocess.run([self.mc, *map(str, words)], input=stdin, capture_output=True,
                               cwd=folder.out, env=self.environment(folder, **faults),
                               timeout=timeout, check=False)
-        calls = []
-        if faults:  # the log is there, or the library was not loaded
-            for line in log.read_text().splitlines():
-                number, *rest = line.split("\t")
-                calls.append(Call(int(number), *rest))
+        # Where the log is not, the library was not loaded.
+        calls = read_calls(log) if faults else []
         return Ended(done.returncode, done.stdout, done.stderr.decode(errors="replace"), calls)
+
+    def start_until(self, folder, words, call):
+        """The program, stopped by SIGSTOP before that call; None where it ended before."""
+        log = folder.path / "calls.log"
+        run = subprocess.Popen([self.mc, *map(str, words)], stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=folder.out,
+                               env=self.environment(folder, STOP=call, LOG=log))
+        _, status = os.waitpid(run.pid, os.WUNTRACED)
+        if os.WIFSTOPPED(status):
+            return run
+        run.returncode = os.waitstatus_to_exitcode(status)
+        return None
+
+
+def read_calls(log):
+    calls = []
+    for line in log.read_text().splitlines():
+        number, *rest = line.split("\t")
+        calls.append(Call(int(number), *rest))
+    return calls
 
 
 def output_words(folder, kind, to="-"):
