@@ -5,6 +5,8 @@
 
 #include <csignal>
 #include <new>
+#include <string_view>
+#include <system_error>
 
 #include "mc/base.hpp"
 #include "mc/source.hpp"
@@ -26,6 +28,17 @@ void run_on_inputs(const std::function<void()>& work) {
   }
 }
 
+Failure out_of_memory() {
+  return {static_cast<int>(ErrorKind::limit),
+          {"out of memory: the run needs more than this machine gives; "
+           "try --region or --threads 1"}};
+}
+
+Failure internal_fault(std::string_view what) {
+  return {static_cast<int>(ErrorKind::internal),
+          {fmt::format("internal fault: {}; please report it", what)}};
+}
+
 }  // namespace
 
 std::optional<Failure> attempt(const std::function<void()>& work) {
@@ -38,15 +51,14 @@ std::optional<Failure> attempt(const std::function<void()>& work) {
     // Only a signal asks for it, and the signal ends the process a moment later.
     return Failure{128 + SIGINT, {}};
   } catch (const std::bad_alloc&) {
-    return Failure{static_cast<int>(ErrorKind::limit),
-                   {"out of memory: the run needs more than this machine gives; "
-                    "try --region or --threads 1"}};
+    return out_of_memory();
+  } catch (const std::system_error& e) {
+    if (e.code() == std::errc::resource_unavailable_try_again) return out_of_memory();  // a thread
+    return internal_fault(e.what());
   } catch (const std::exception& e) {
-    return Failure{static_cast<int>(ErrorKind::internal),
-                   {fmt::format("internal fault: {}; please report it", e.what())}};
+    return internal_fault(e.what());
   } catch (...) {
-    return Failure{static_cast<int>(ErrorKind::internal),
-                   {"internal fault: unknown exception; please report it"}};
+    return internal_fault("unknown exception");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 #include "cli/args.hpp"
@@ -80,9 +81,12 @@ int dispatch(Invocation& invocation, const std::vector<std::string>& words) {
 
 int run_program(const std::vector<std::string>& words) {
   Invocation invocation;
-  const SignalThread signals(invocation.stop);  // before any other thread
+  std::optional<SignalThread> signals;
   int status = 0;
-  const auto failure = attempt([&] { status = dispatch(invocation, words); });
+  const auto failure = attempt([&] {
+    signals.emplace(invocation.stop);  // before any other thread
+    status = dispatch(invocation, words);
+  });
   return failure ? show(invocation.console, *failure) : status;
 }
 

@@ -53,6 +53,7 @@ SignalThread::SignalThread(std::stop_source& stop) {
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   // SIGPIPE goes to the thread that wrote, so a handler has to take it.
   std::signal(SIGPIPE, die_by);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow fails the write, which can be told
   recover_inputs();
   thread_ = std::thread([this, set, &stop] {
     for (;;) {

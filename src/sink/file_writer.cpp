@@ -39,8 +39,8 @@ void touch(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-FileWriter::FileWriter(int fd, bool offsets, std::string place)
-    : fd_(fd), offsets_(offsets), place_(std::move(place)) {}
+FileWriter::FileWriter(int fd, bool offsets, std::string place, std::string_view remedy)
+    : fd_(fd), offsets_(offsets), place_(std::move(place)), remedy_(remedy) {}
 
 FileWriter::~FileWriter() {
   if (fd_ > STDERR_FILENO) {
@@ -159,7 +159,7 @@ void FileWriter::close() {
   buffer_.reset();  // a series of files has them all until the last is written
   const int fd = std::exchange(fd_, -1);
   if (fd > STDERR_FILENO && ::close(fd) != 0 && errno != EINTR) {
-    cannot("write", place_);
+    cannot("write", place_, remedy_);
   }
 }
 
@@ -176,7 +176,7 @@ void FileWriter::put(std::uint64_t offset, std::span<const std::byte> bytes) con
       continue;
     }
     if (n < 0) {
-      cannot("write", place_);
+      cannot("write", place_, remedy_);
     }
     bytes = bytes.subspan(static_cast<std::size_t>(n));
     offset += static_cast<std::uint64_t>(n);

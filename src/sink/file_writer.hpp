@@ -23,8 +23,8 @@ constexpr std::size_t kBufferBytes = std::size_t{1} << 20;
 class FileWriter {
  public:
   /// Owns `fd`, unless it is a standard stream. With `offsets` it writes by pwrite() at a position
-  /// of its own, so that write_at() does not disturb appending.
-  FileWriter(int fd, bool offsets, std::string place);
+  /// of its own, so that write_at() does not disturb appending. `remedy` is for who cannot write.
+  FileWriter(int fd, bool offsets, std::string place, std::string_view remedy = {});
   ~FileWriter();
   FileWriter(const FileWriter&) = delete;
   FileWriter& operator=(const FileWriter&) = delete;
@@ -58,6 +58,7 @@ class FileWriter {
   int fd_;
   bool offsets_;
   std::string place_;
+  std::string remedy_;
   std::uint64_t flushed_ = 0;            // where the buffer will go
   std::unique_ptr<std::byte[]> buffer_;  // none, or kBufferBytes
   std::size_t buffered_ = 0;

@@ -49,7 +49,8 @@ SpoolFile::SpoolFile(const OutputFile& beside) : state_(std::make_unique<State>(
            beside.seekable() ? "choose a folder that can be written"
                              : "point TMPDIR at a folder that can be written");
   }
-  state_->writer = std::make_unique<FileWriter>(fd, true, place);
+  state_->writer = std::make_unique<FileWriter>(
+      fd, true, place, beside.seekable() ? "" : "point TMPDIR at a folder with room");
 }
 
 SpoolFile::~SpoolFile() = default;

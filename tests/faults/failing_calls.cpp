@@ -129,7 +129,10 @@ bool fails(const char* call, const char* file, const char* other = "") {
     errno = plan().error;
     return true;
   }
-  if (plan().interrupt_every > 0 && n % plan().interrupt_every == 0) {
+  constexpr std::string_view kInterruptible =
+      "open,read,pread,write,pwrite,copy_file_range,sendfile,fsync,ftruncate,close";
+  if (plan().interrupt_every > 0 && n % plan().interrupt_every == 0 &&
+      lists(kInterruptible, call)) {
     log_call(n, call, file, other, "interrupted");
     errno = EINTR;
     return true;

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: MIT
+"""SIGINT, SIGTERM, SIGHUP and SIGKILL while the program works.
+
+    signals.py MC LIBRARY every-call        each signal before every call of a run
+    signals.py MC LIBRARY random N [SEED]   N signals at random moments, over outputs and batches
+
+The program ends by the signal at once, says nothing, and leaves no partial file, except after
+SIGKILL. What has its final name is whole: the old output or the new one, of several files all old
+or all new.
+"""
+
+import random
+import signal
+import subprocess
+import sys
+import time
+
+import program
+
+GENTLE = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+MOST_SECONDS = 5.0  # cli.signals measures 0.2 s; this is for machines under load
+
+
+def seed_old(folder, old):
+    folder.clear()
+    for name, data in old.items():
+        (folder.out / name).write_bytes(data)
+
+
+def states(before, wanted):
+    """What may lie there in the end: the old or the new, of several files all or none."""
+    return [before, {**before, **wanted}]
+
+
+def check_end(faults, said, run, number, began, folder, allowed):
+    stdout, stderr = run.communicate(timeout=60)
+    took = time.monotonic() - began
+    faults.expect(run.returncode in {-number, 0}, said, program.signal_name(run.returncode), stderr)
+    faults.expect(not stderr, said, "says", stderr)
+    faults.expect(run.returncode == 0 or took < MOST_SECONDS, said, "took", took)
+    left = folder.contents()
+    partials = [name for name in left if ".partial-" in name]
+    faults.expect(number == signal.SIGKILL or not partials, said, "left", partials)
+    whole = {name: data for name, data in left.items() if name not in partials}
+    faults.expect(whole in allowed, said, "left", sorted(left),
+                  {name: len(data) for name, data in whole.items()})
+    return run.returncode
+
+
+def every_call(mc, faults, folder, kinds):
+    """The number of signals."""
+    n_signals = 0
+    for kind in kinds:
+        words = [*program.output_words(folder, kind, program.output_name(kind)), "--force"]
+        folder.clear()
+        calls = mc.run(folder, words, AT=0).calls
+        wanted = folder.contents()
+        old = {name: b"old" for name in wanted}
+        for call in calls:
+            number = GENTLE[call.number % len(GENTLE)]
+            seed_old(folder, old)
+            run = mc.start_until(folder, words, call.number)
+            began = time.monotonic()
+            run.send_signal(number)
+            run.send_signal(signal.SIGCONT)
+            check_end(faults, f"{kind}, {number.name} before {call}", run, number, began, folder,
+                      states(old, wanted))
+            n_signals += 1
+    return n_signals
+
+
+class Subject:
+    """A command, what it makes, and how long it takes."""
+
+    def __init__(self, mc, folder, said, words, old):
+        self.said, self.words, self.old = said, words, old
+        folder.clear()
+        began = time.monotonic()
+        done = mc.run(folder, words)
+        self.seconds = time.monotonic() - began
+        assert done.status == 0, done.stderr
+        self.wanted = folder.contents()
+        # Of a batch any number of outputs may be there, each whole.
+        self.is_batch = "--out-dir" in words
+
+    def allowed(self, left):
+        if not self.is_batch:
+            return states(self.old, self.wanted)
+        return [{name: self.wanted.get(name) for name in left if ".partial-" not in name}]
+
+
+def subjects(mc, folder):
+    for kind in (*program.MESHES, "nrrd", "vdb", "exr"):
+        words = program.output_words(folder, kind, program.output_name(kind))
+        yield kind, [*words, "--force"]
+    batch = []
+    for name in "abcdef":
+        path = folder.inputs / f"{name}.raw"
+        path.write_bytes(folder.raw.read_bytes())
+        batch.append(path)
+    yield "batch", ["extract", *batch, *folder.raw_options(), "-q", "--out-dir", folder.out, "--to",
+                    "glb"]
+    yield "report", [*program.output_words(folder, "obj", "m.obj"), "--report", "r.json", "--force"]
+
+
+def at_random(mc, faults, folder, n_signals, seed):
+    chance = random.Random(seed)
+    print("seed", seed)
+    every = []
+    for said, words in subjects(mc, folder):
+        subject = Subject(mc, folder, said, words, {})
+        if said not in {"batch", "report"}:
+            subject.old = {name: b"old" for name in subject.wanted}
+        every.append(subject)
+    n_ended_by_signal = 0
+    for n in range(n_signals):
+        subject = chance.choice(every)
+        number = chance.choice((*GENTLE, signal.SIGKILL))
+        seed_old(folder, subject.old)
+        run = subprocess.Popen([mc.mc, *map(str, subject.words)], cwd=folder.out,
+                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, env=mc.environment(folder))
+        time.sleep(chance.uniform(0, 1.1 * subject.seconds))
+        began = time.monotonic()
+        run.send_signal(number)
+        said = f"{subject.said}, signal {n}, {number.name}"
+        run.wait(timeout=60)
+        if subject.said == "report":
+            # Its report comes after the mesh; both or the mesh alone are whole.
+            allowed = [{}, {"m.obj": subject.wanted["m.obj"]}]
+            left = folder.contents()
+            if "r.json" in left:
+                allowed.append({"m.obj": subject.wanted["m.obj"], "r.json": left["r.json"]})
+                faults.expect(left["r.json"].endswith(b"}\n"), said, "half a report")
+        else:
+            allowed = subject.allowed(folder.contents())
+        status = check_end(faults, said, run, number, began, folder, allowed)
+        n_ended_by_signal += status != 0
+    # Not a law, but a run in which no signal came in time would show nothing.
+    faults.expect(n_ended_by_signal > n_signals / 4, "only", n_ended_by_signal, "came in time")
+    return f"{n_signals} signals, {n_ended_by_signal} in time"
+
+
+def main():
+    mc, (how, *rest) = program.arguments()
+    faults = program.Faults()
+    with program.Folder(size=32 if how == "every-call" else 56) as folder:
+        if how == "every-call":
+            return faults.end(f"{every_call(mc, faults, folder, rest)} signals")
+        seed = int(rest[1]) if len(rest) > 1 else random.randrange(1 << 32)
+        return faults.end(at_random(mc, faults, folder, int(rest[0]), seed))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
