@@ -17,13 +17,13 @@ namespace {
 
 /// Whatever went wrong: where an input changed meanwhile, that is what is to be told.
 void run_on_inputs(const std::function<void()>& work) {
-  forget_past_inputs();
+  const InputWatch inputs;
   try {
     work();
   } catch (const Cancelled&) {
     throw;
   } catch (...) {
-    refuse_changed_inputs();
+    inputs.refuse_changed();
     throw;
   }
 }

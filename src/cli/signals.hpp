@@ -14,7 +14,7 @@ namespace mc::cli {
 /// `stop` to stop, unlinks the partial files, and lets the signal end the process, whatever a
 /// library is busy with. Signals that the parent had ignored (nohup) stay ignored.
 /// SIGPIPE unlinks too and then ends the process without a word. SIGBUS does so unless it tells
-/// that an input became shorter, which refuse_changed_inputs() finds later.
+/// that an input became shorter, which an InputWatch finds later.
 class SignalThread {
  public:
   explicit SignalThread(std::stop_source& stop);

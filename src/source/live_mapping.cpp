@@ -16,15 +16,23 @@
 
 // The list of mappings only grows, and entries are used again, so that a signal handler can walk it
 // at any time. A page whose bytes are gone is replaced by zeros, with all behind it: the reader
-// goes on over them, and who wants to keep its result asks refuse_changed_inputs() first.
+// goes on over them, and who wants to keep its result asks an InputWatch first.
 
-namespace mc::source {
+namespace mc {
+
+struct InputWatch::State {
+  std::optional<Error> past_fault;  // of a file that is closed
+  State* outer = nullptr;
+};
+
+namespace source {
 
 struct LiveMapping::Entry {
   std::atomic<std::uintptr_t> begin{0};  // 0: not in use
   std::atomic<std::uintptr_t> end{0};
   std::atomic<bool> lost{false};
   Entry* next = nullptr;
+  InputWatch::State* watch = nullptr;
   std::string place;
   struct stat status {};
 
@@ -36,8 +44,8 @@ namespace {
 using Entry = LiveMapping::Entry;
 
 std::atomic<Entry*> first{nullptr};
-std::mutex list_mutex;            // of who adds, removes or looks through; the handler does not ask
-std::optional<Error> past_fault;  // of a mapping that is no more
+std::mutex list_mutex;  // of who adds, removes or looks through; the handler does not ask
+thread_local InputWatch::State* innermost = nullptr;
 
 constexpr std::string_view kRemedy = "run again when nothing writes to it";
 
@@ -74,6 +82,7 @@ LiveMapping::LiveMapping(std::span<const std::byte> bytes, const struct stat& st
   entry_ = free_entry();
   entry_->place = place;
   entry_->status = status;
+  entry_->watch = innermost;
   entry_->lost = false;
   entry_->end = reinterpret_cast<std::uintptr_t>(bytes.data()) + bytes.size();
   entry_->begin = reinterpret_cast<std::uintptr_t>(bytes.data());
@@ -82,7 +91,9 @@ LiveMapping::LiveMapping(std::span<const std::byte> bytes, const struct stat& st
 LiveMapping::~LiveMapping() {
   if (entry_ == nullptr) return;
   const std::lock_guard lock(list_mutex);
-  if (!past_fault) past_fault = entry_->fault();
+  if (entry_->watch != nullptr && !entry_->watch->past_fault) {
+    entry_->watch->past_fault = entry_->fault();
+  }
   entry_->begin = 0;
 }
 
@@ -94,22 +105,37 @@ LiveMapping& LiveMapping::operator=(LiveMapping&& other) noexcept {
   return *this;
 }
 
-}  // namespace mc::source
+}  // namespace source
 
-namespace mc {
+namespace {
 
-void refuse_changed_inputs() {
+void refuse_changed(const InputWatch::State& watch) {
   const std::lock_guard lock(source::list_mutex);
-  if (source::past_fault) throw Error(*source::past_fault);
+  if (watch.past_fault) throw Error(*watch.past_fault);
   for (const auto* entry = source::first.load(); entry != nullptr; entry = entry->next) {
-    if (entry->begin == 0) continue;
+    if (entry->begin == 0 || entry->watch != &watch) continue;
     if (const auto fault = entry->fault()) throw Error(*fault);
   }
 }
 
-void forget_past_inputs() noexcept {
+}  // namespace
+
+InputWatch::InputWatch() : state_(std::make_unique<State>()) {
+  state_->outer = std::exchange(source::innermost, state_.get());
+}
+
+InputWatch::~InputWatch() {
+  source::innermost = state_->outer;
   const std::lock_guard lock(source::list_mutex);
-  source::past_fault.reset();
+  for (auto* entry = source::first.load(); entry != nullptr; entry = entry->next) {
+    if (entry->watch == state_.get()) entry->watch = nullptr;
+  }
+}
+
+void InputWatch::refuse_changed() const { mc::refuse_changed(*state_); }
+
+void refuse_changed_inputs() {
+  if (source::innermost != nullptr) refuse_changed(*source::innermost);
 }
 
 bool recover_input(const void* address) noexcept {

@@ -7,8 +7,8 @@
 #include <span>
 #include <string>
 
-// Files that are mapped, and what becomes of them meanwhile: refuse_changed_inputs() and
-// recover_input() of mc/source.hpp look at these.
+// Files that are mapped, and what becomes of them meanwhile: InputWatch and recover_input() of
+// mc/source.hpp look at these.
 
 namespace mc::source {
 

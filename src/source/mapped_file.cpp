@@ -25,10 +25,7 @@ namespace {
 
 /// A copy on disk, at most `most_bytes` and one more of it.
 Descriptor spooled(InputFile input, std::uint64_t most_bytes, Progress& progress) {
-  if (input.is_device() && most_bytes == MappedFile::kUnlimited) {
-    throw Error(ErrorKind::input, input.place(), "is a device, but a file or a pipe was expected",
-                "raw data from a device needs all three --dims and --type");
-  }
+  if (most_bytes == MappedFile::kUnlimited) input.refuse_device();
   const bool packed = input.packing() != Packing::none;
   const bool is_stdin = input.is_stdin();
   const std::string place = input.place();

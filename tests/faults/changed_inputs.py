@@ -80,19 +80,19 @@ def check_all(mc, faults, folder, said, words, change, old):
     return len(stops)
 
 
-def check_batch(mc, faults, folder):
-    """The others are converted."""
+def check_batch(mc, faults, folder, threads):
+    """The others are converted, also by threads that are at it at the same time."""
     names = ["a", "b", "c"]
     for seed, name in enumerate(names):
         write_noise(folder.inputs / f"{name}.raw", seed)
     folder.clear()
     words = ["extract", *(folder.inputs / f"{name}.raw" for name in names), "--dims", f"{N},{N},{N}",
-             "--type", "u8", "--iso", "250.5", "-q", "--threads", "1", "--out-dir", folder.out,
-             "--to", "ply", "--report", "-"]
+             "--type", "u8", "--iso", "250.5", "-q", "--threads", threads, "--out-dir",
+             folder.out, "--to", "ply", "--report", "-"]
     calls = mc.run(folder, words, AT=0).calls
-    written = [c.number for c in calls if c.name == "pwrite" and "/b.ply.partial" in c.file]
+    begun = next(c.number for c in calls if c.name == "create" and "/b.ply.partial" in c.file)
     folder.clear()
-    run = mc.start_until(folder, words, written[0])
+    run = mc.start_until(folder, words, begun)
     cut(folder.inputs / "b.raw")
     run.send_signal(signal.SIGCONT)
     stdout, stderr = run.communicate(timeout=60)
@@ -120,8 +120,9 @@ def main():
             for change in (cut, overwrite):
                 said_all = f"{said}, {change.__name__}"
                 n_runs += check_all(mc, faults, folder, said_all, words, change, old)
-        check_batch(mc, faults, folder)
-    return faults.end(f"{n_runs + 1} runs")
+        check_batch(mc, faults, folder, "1")
+        check_batch(mc, faults, folder, "2")
+    return faults.end(f"{n_runs + 2} runs")
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ import program
 def start(mc, folder, words, **more):
     return subprocess.Popen([mc.mc, *map(str, words)], cwd=folder.out, stdin=subprocess.DEVNULL,
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            env=mc.environment(folder), **more)
+                            env=mc.environment(folder), bufsize=0, **more)
 
 
 def leave_after(run, n_bytes):
@@ -31,12 +31,12 @@ def main():
     mc, kinds = program.arguments()
     faults = program.Faults()
     n_runs = 0
-    with program.Folder(size=48) as folder:
+    with program.Folder(size=64) as folder:
         for kind in kinds:
             words = [*program.output_words(folder, kind), "--to", kind]
             whole = len(mc.run(folder, words).stdout)
-            faults.expect(whole > 100_000, kind, "fits into a pipe", whole)
-            for n_bytes in (0, 1, 4000, whole // 2, whole - 70_000):
+            faults.expect(whole > 200_000, kind, "fits into a pipe", whole)
+            for n_bytes in (0, 1, 4000, whole // 2, whole - 90_000):
                 status, stderr = leave_after(start(mc, folder, words), n_bytes)
                 said = f"{kind}, reader left after {n_bytes} of {whole}"
                 faults.expect(status == -signal.SIGPIPE and not stderr, said,

@@ -21,11 +21,19 @@ namespace {
               "cannot " + std::string(verb) + ": " + std::generic_category().message(error));
 }
 
+int open_to_read(const std::string& path) {
+  int fd = -1;
+  do {  // a FIFO waits for its writer here
+    fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  } while (fd < 0 && errno == EINTR);
+  return fd;
+}
+
 }  // namespace
 
 InputFile::InputFile(const std::string& path, Bytes bytes)
     : place_(path == "-" ? "<stdin>" : path), is_stdin_(path == "-") {
-  Descriptor opened(is_stdin_ ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  Descriptor opened(is_stdin_ ? STDIN_FILENO : open_to_read(path));
   if (opened.get() < 0) {
     cannot("open", place_);
   }
