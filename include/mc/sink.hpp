@@ -25,6 +25,7 @@ struct SinkOptions {
   bool force = false;  ///< replace an existing file; write binary to a terminal
   bool sync = false;   ///< finish() waits until data and names are on the disk
   bool ascii = false;  ///< PLY, STL: text form
+  Progress* progress = nullptr;  ///< is told, as a detail, of what is spooled to $TMPDIR
   std::optional<Precision>
       precision;  ///< PLY coordinates; unset: f32 unless it would move a vertex
   /// Facts written into the file (PLY/OBJ comments, glTF asset.extras), in order. Never time, host,

@@ -224,6 +224,7 @@ RunOptions Extraction::run_options(const Iso& iso) const {
 /// Facts for the file: what was chosen, and nothing that differs between two runs of one choice.
 SinkOptions Extraction::sink_options() const {
   SinkOptions options = plan_.sink;
+  options.progress = &invocation_.console;
   auto& facts = options.provenance;
   facts.emplace_back("generator", "mc " MC_VERSION);
   if (!volume().name.empty()) facts.emplace_back("grid", volume().name);

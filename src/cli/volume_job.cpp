@@ -61,7 +61,9 @@ void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
 }  // namespace
 
 void write_volume(const VolumeReader& from, const SamplePlan& plan, Invocation& invocation) {
-  const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, plan.sink);
+  SinkOptions options = plan.sink;
+  options.progress = &invocation.console;
+  const std::unique_ptr<VolumeSink> sink = open_volume_sink(plan.job.output, options);
   std::visit([&](const auto& reader) { write(*reader, plan, *sink, invocation); }, from);
   refuse_changed_inputs();
   sink->finish();

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "mc/base.hpp"
@@ -141,6 +142,13 @@ std::string OutputFile::scratch_folder() const {
   }
   const char* tmpdir = std::getenv("TMPDIR");
   return tmpdir != nullptr && *tmpdir != '\0' ? tmpdir : "/tmp";
+}
+
+void OutputFile::note_spool() const {
+  Progress* const told = std::exchange(state_->options.progress, nullptr);
+  if (!seekable() && told != nullptr) {
+    told->detail(place() + ": is no file: spooled to a temporary file in " + scratch_folder());
+  }
 }
 
 FileWriter& OutputFile::writer() { return *state_->writer; }

@@ -24,6 +24,7 @@ class OutputFile {
     bool force = false;  ///< replace an existing file; allow binary on a terminal
     bool sync = false;   ///< commit() waits for the disk
     bool binary = true;
+    Progress* progress = nullptr;  ///< is told of spools in $TMPDIR
   };
 
   /// Opens the partial file (or the device). "-" is stdout. A symlink is followed: its target is
@@ -40,6 +41,8 @@ class OutputFile {
   [[nodiscard]] std::uint64_t size() const;  ///< bytes appended so far
   /// Where its temporary files belong: its own folder, $TMPDIR or /tmp for what is no file.
   [[nodiscard]] std::string scratch_folder() const;
+  /// A spool is made in that folder: tells it once, where it is not the output's own.
+  void note_spool() const;
 
   void append(std::span<const std::byte> bytes);
   void append(std::string_view text);
@@ -78,7 +81,8 @@ class OutputFile {
 
 /// What the caller of a sink asked, for one of its files.
 inline OutputFile::Options output_options(const SinkOptions& options, bool binary) {
-  return {.force = options.force, .sync = options.sync, .binary = binary};
+  return {
+      .force = options.force, .sync = options.sync, .binary = binary, .progress = options.progress};
 }
 
 /// An unlinked temporary file beside an output (or in $TMPDIR when that is a stream).

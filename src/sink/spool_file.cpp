@@ -34,6 +34,7 @@ struct SpoolFile::State {
 };
 
 SpoolFile::SpoolFile(const OutputFile& beside) : state_(std::make_unique<State>()) {
+  beside.note_spool();
   const std::string folder = beside.scratch_folder();
   int fd = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, S_IRUSR | S_IWUSR);
   if (fd < 0) {  // not every file system has files without a name

@@ -8,6 +8,7 @@
 //   MC_FAULT_AT=N           number N fails, once
 //   MC_FAULT_ERRNO=E        ... with this error
 //   MC_FAULT_STOP=N         before number N the process stops by SIGSTOP
+//   MC_FAULT_SLOW=N         number N takes ten seconds, whatever signals come
 //   MC_FAULT_WITHOUT=A,...  calls that always fail as on file systems that do not have them
 //   MC_FAULT_SHORT=1        reads, writes and copies move between one byte and half of what they
 //   may MC_FAULT_EINTR=N        every N-th call is interrupted before it has done anything
@@ -57,6 +58,7 @@ struct Plan {
   std::string_view without = text_from("MC_FAULT_WITHOUT");
   long at = number_from("MC_FAULT_AT");
   long stop = number_from("MC_FAULT_STOP");
+  long slow = number_from("MC_FAULT_SLOW");
   int error = static_cast<int>(number_from("MC_FAULT_ERRNO"));
   bool is_short = number_from("MC_FAULT_SHORT") != 0;
   long interrupt_every = number_from("MC_FAULT_EINTR");
@@ -124,6 +126,10 @@ bool fails(const char* call, const char* file, const char* other = "") {
   if (!plan().calls.empty() && !lists(plan().calls, call)) return false;
   const long n = ++n_calls;
   if (n == plan().stop) ::kill(::getpid(), SIGSTOP);
+  if (n == plan().slow) {
+    log_call(n, call, file, other, "slow");
+    for (unsigned left = 10; left > 0;) left = ::sleep(left);
+  }
   if (n == plan().at) {
     log_call(n, call, file, other, "fails");
     errno = plan().error;
