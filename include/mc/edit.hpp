@@ -56,6 +56,7 @@ struct BrushShape {
 };
 
 enum class FalloffType : std::uint8_t {
+  none,  ///< 1 wherever the operation reaches: csg beyond the shape, stamps all over; else as hard
   hard,
   linear,
   smoothstep,
@@ -142,6 +143,7 @@ struct Edit {
   std::shared_ptr<const SampledVolume> stamp{};  ///< its samples' own place is in to_index
   double stamp_iso = 0;                          ///< what its values are compared with
   bool stamp_above = true;                       ///< its solid side
+  bool stamp_carves = false;                     ///< taken away instead of put in
   std::uint16_t material = 0;                    ///< paint
 };
 
@@ -193,6 +195,9 @@ class EditStore {
   std::size_t redo(std::size_t count = 1);
   /// Steps that are kept; older ones are forgotten (default: all).
   void keep_undo(std::size_t n_steps);
+  /// What blocks and undo may hold (default: the machine's memory). An edit that could need more is
+  /// refused before it touches anything.
+  void limit_memory(std::uint64_t bytes);
 
   /// Boxes of samples that changed since the last call, undone ones too; empty boxes never.
   [[nodiscard]] std::vector<IndexBox> take_dirty();
@@ -200,6 +205,9 @@ class EditStore {
   /// Copies the samples of `box` (within the volume's), x fastest, in the volume's type and native
   /// byte order. `out` holds box samples * sample_size bytes.
   void read_box(const IndexBox& box, std::span<std::byte> out) const;
+  /// The materials that paint left there, 0 where none did.
+  void read_materials(const IndexBox& box, std::span<std::uint16_t> out) const;
+  [[nodiscard]] bool has_materials() const;
   [[nodiscard]] std::uint64_t n_stored_blocks() const;
   [[nodiscard]] std::uint64_t stored_bytes() const;  ///< blocks and undo
   /// A hash of all stored blocks: equal for equal edits of equal inputs.

@@ -3,8 +3,10 @@
 
 #include <cassert>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "base/checked.hpp"
@@ -32,6 +34,14 @@ class SpecReader final : public SlabReader {
                     Slab& out) const override {
     spec_.field.sample_surface(spec_.origin, spec_.spacing, {0, 0, k0}, query,
                                make_room(k0, k1, out), out.sides);
+  }
+
+  void read_box(const IndexBox& box, std::span<std::byte> out) const override {
+    const auto extent = [&](int a) { return static_cast<std::int32_t>(box.extent(a)); };
+    Buffer<float> samples(out.size() / sizeof(float));
+    spec_.field.sample(spec_.origin, spec_.spacing, box.lo,
+                       {samples.data(), {extent(0), extent(1), extent(2)}});
+    std::memcpy(out.data(), samples.data(), out.size());
   }
 
  private:

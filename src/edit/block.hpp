@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "mc/field.hpp"
+
+// Blocks of 8x8x8 samples, x fastest, in the volume's type and native byte order: what a store
+// keeps of a volume that was touched.
+
+namespace mc::edit {
+
+inline constexpr std::int32_t kSide = 8;
+inline constexpr std::size_t kBlockSamples = 512;
+
+/// A bit a sample: word k, bit 8 j + i.
+using Mask512 = std::array<std::uint64_t, kSide>;
+
+[[nodiscard]] inline std::uint64_t n_bits(const Mask512& mask) {
+  std::uint64_t n = 0;
+  for (const std::uint64_t word : mask) n += static_cast<std::uint64_t>(std::popcount(word));
+  return n;
+}
+
+/// Its samples follow it in memory.
+struct alignas(64) Block {
+  Mask512 active{};        ///< sparse volumes
+  std::uint64_t step = 0;  ///< of the history, that made it
+  std::uint64_t hash = 0;
+  bool hashed = false;
+
+  [[nodiscard]] std::byte* samples() { return reinterpret_cast<std::byte*>(this + 1); }
+  [[nodiscard]] const std::byte* samples() const {
+    return reinterpret_cast<const std::byte*>(this + 1);
+  }
+};
+
+struct BlockDelete {
+  void operator()(Block* block) const noexcept {
+    ::operator delete (static_cast<void*>(block), std::align_val_t{alignof(Block)});
+  }
+};
+using BlockPtr = std::unique_ptr<Block, BlockDelete>;
+
+/// Blocks of one sample size; those given back are handed out again.
+class BlockPool {
+ public:
+  explicit BlockPool(std::size_t sample_bytes)
+      : block_bytes_(sizeof(Block) + kBlockSamples * sample_bytes) {}
+
+  /// Anything may be in its samples.
+  [[nodiscard]] BlockPtr take() {
+    ++n_live_;
+    if (free_.empty()) {
+      const std::align_val_t line{alignof(Block)};
+      return BlockPtr(::new (::operator new(block_bytes_, line)) Block);
+    }
+    BlockPtr block = std::move(free_.back());
+    free_.pop_back();
+    *block = Block{};
+    return block;
+  }
+  void give_back(BlockPtr block) {
+    if (!block) return;
+    --n_live_;
+    if (free_.size() < kMostFree) free_.push_back(std::move(block));
+  }
+  [[nodiscard]] std::size_t block_bytes() const { return block_bytes_; }
+  [[nodiscard]] std::uint64_t live_bytes() const { return n_live_ * block_bytes_; }
+
+ private:
+  static constexpr std::size_t kMostFree = 4096;
+
+  std::size_t block_bytes_;
+  std::uint64_t n_live_ = 0;
+  std::vector<BlockPtr> free_;
+};
+
+/// Index of the block that holds a sample index, along one axis.
+[[nodiscard]] constexpr std::int32_t block_of(std::int32_t index) { return index >> 3; }
+[[nodiscard]] inline Index3 block_of(const Index3& p) {
+  return {block_of(p[0]), block_of(p[1]), block_of(p[2])};
+}
+[[nodiscard]] inline IndexBox blocks_of(const IndexBox& box) {
+  return {block_of(box.lo), block_of(box.hi)};
+}
+/// Index of a block's first sample.
+[[nodiscard]] inline Index3 origin_of(const Index3& block) {
+  return {block[0] * kSide, block[1] * kSide, block[2] * kSide};
+}
+[[nodiscard]] inline IndexBox samples_of(const Index3& block) {
+  const Index3 lo = origin_of(block);
+  return {lo, {lo[0] + (kSide - 1), lo[1] + (kSide - 1), lo[2] + (kSide - 1)}};
+}
+
+/// Ordered by (z, y, x).
+[[nodiscard]] inline bool comes_before(const Index3& a, const Index3& b) {
+  if (a[2] != b[2]) return a[2] < b[2];
+  if (a[1] != b[1]) return a[1] < b[1];
+  return a[0] < b[0];
+}
+
+[[nodiscard]] inline bool is_empty(const IndexBox& box) {
+  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
+}
+[[nodiscard]] inline IndexBox common_part(const IndexBox& a, const IndexBox& b) {
+  IndexBox out;
+  for (std::size_t n = 0; n < 3; ++n) {
+    out.lo[n] = a.lo[n] > b.lo[n] ? a.lo[n] : b.lo[n];
+    out.hi[n] = a.hi[n] < b.hi[n] ? a.hi[n] : b.hi[n];
+  }
+  return out;
+}
+/// The least box around both; an empty one adds nothing.
+[[nodiscard]] inline IndexBox joined(const IndexBox& a, const IndexBox& b) {
+  if (is_empty(a)) return b;
+  if (is_empty(b)) return a;
+  IndexBox out;
+  for (std::size_t n = 0; n < 3; ++n) {
+    out.lo[n] = a.lo[n] < b.lo[n] ? a.lo[n] : b.lo[n];
+    out.hi[n] = a.hi[n] > b.hi[n] ? a.hi[n] : b.hi[n];
+  }
+  return out;
+}
+
+/// The least box around the set samples of a block; empty where there are none.
+[[nodiscard]] inline IndexBox box_of(const Index3& block, const Mask512& mask) {
+  std::uint64_t plane = 0;
+  std::uint64_t planes = 0;
+  for (std::size_t k = 0; k < mask.size(); ++k) {
+    plane |= mask[k];
+    planes |= std::uint64_t{mask[k] != 0} << k;
+  }
+  if (plane == 0) return {};
+  std::uint64_t columns = plane | plane >> 32U;
+  columns |= columns >> 16U;
+  columns = (columns | columns >> 8U) & 0xFFU;
+  const auto lowest = [](std::uint64_t bits) { return std::countr_zero(bits); };
+  const auto highest = [](std::uint64_t bits) { return 63 - std::countl_zero(bits); };
+  const Index3 at = origin_of(block);
+  return {{at[0] + lowest(columns), at[1] + lowest(plane) / kSide, at[2] + lowest(planes)},
+          {at[0] + highest(columns), at[1] + highest(plane) / kSide, at[2] + highest(planes)}};
+}
+
+/// Calls f with each block that a box of samples meets, by (z, y, x).
+template <class F>
+void for_blocks_of(const IndexBox& box, F&& f) {
+  const IndexBox blocks = blocks_of(box);
+  for (std::int32_t bk = blocks.lo[2]; bk <= blocks.hi[2]; ++bk) {
+    for (std::int32_t bj = blocks.lo[1]; bj <= blocks.hi[1]; ++bj) {
+      for (std::int32_t bi = blocks.lo[0]; bi <= blocks.hi[0]; ++bi) f(Index3{bi, bj, bk});
+    }
+  }
+}
+
+/// Copies what a block and a box have in common into the box's samples, x fastest.
+inline void copy_from_block(const Index3& block, const std::byte* samples, std::size_t sample_bytes,
+                            const IndexBox& box, std::byte* out) {
+  const IndexBox part = common_part(samples_of(block), box);
+  const Index3 from = origin_of(block);
+  const auto size = [](std::int64_t v) { return static_cast<std::size_t>(v); };
+  const std::size_t row_bytes = size(part.extent(0)) * sample_bytes;
+  for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
+    for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
+      const std::size_t in =
+          size((k - from[2]) * kSide + (j - from[1])) * kSide + size(part.lo[0] - from[0]);
+      const std::size_t to =
+          (size(k - box.lo[2]) * size(box.extent(1)) + size(j - box.lo[1])) * size(box.extent(0)) +
+          size(part.lo[0] - box.lo[0]);
+      std::memcpy(out + to * sample_bytes, samples + in * sample_bytes, row_bytes);
+    }
+  }
+}
+
+struct BlockHash {
+  std::size_t operator()(const Index3& p) const noexcept {
+    const auto part = [](std::int32_t v) { return std::uint64_t{static_cast<std::uint32_t>(v)}; };
+    std::uint64_t h = part(p[0]) * 0x9E3779B97F4A7C15U;
+    h = (std::rotl(h, 21) ^ part(p[1])) * 0xC2B2AE3D27D4EB4FU;
+    h = (std::rotl(h, 21) ^ part(p[2])) * 0x165667B19E3779F9U;
+    return h ^ h >> 29U;
+  }
+};
+using BlockMap = std::unordered_map<Index3, BlockPtr, BlockHash>;
+
+}  // namespace mc::edit

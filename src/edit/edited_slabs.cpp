@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "edit/edited_reader.hpp"
+
+// An edited dense volume as planes. Planes without a stored block are the input's own memory; the
+// others are copied and patched.
+
+namespace mc::edit {
+
+namespace {
+
+class EditedSlabs final : public SlabReader {
+ public:
+  EditedSlabs(const EditedSamples& samples, const Volume& volume)
+      : samples_(samples), volume_(volume), size_(samples.input().sample_bytes()) {
+    for (const auto& [at, block] : samples.layer().blocks()) stored_.push_back(at);
+    std::sort(stored_.begin(), stored_.end(), comes_before);
+  }
+
+  [[nodiscard]] const Volume& volume() const override { return volume_; }
+  [[nodiscard]] bool rereads_cheaply() const override {
+    return samples_.filled() || input().rereads_cheaply();
+  }
+
+  void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
+    out.sides.clear();
+    if (samples_.filled()) {
+      read_fill(k0, k1, out);
+    } else {
+      input().read(k0, k1, out);
+    }
+    patch(out);
+  }
+
+  void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                    Slab& out) const override {
+    if (samples_.filled()) return read(k0, k1, out);
+    input().read_surface(k0, k1, query, out);
+    if (!out.sides.empty()) complete(out);
+    patch(out);
+  }
+
+  void read_box(const IndexBox& box, std::span<std::byte> out) const override {
+    samples_.read_box(box, out);
+    if (volume_.endian != std::endian::native) swap_samples(out, size_);
+  }
+
+ private:
+  /// A crossed edge may have its other end in a stored block, and a run looks a step beyond it.
+  static constexpr std::int32_t kReach = 2;
+
+  [[nodiscard]] const SlabReader& input() const { return *samples_.input().slabs(); }
+
+  /// Calls f(block) for stored blocks within `reach` planes of [k0, k1).
+  template <class F>
+  void for_stored(std::int32_t k0, std::int32_t k1, std::int32_t reach, F&& f) const {
+    const std::int32_t first = block_of(k0 - reach);
+    const std::int32_t last = block_of(k1 - 1 + reach);
+    auto at = std::partition_point(stored_.begin(), stored_.end(),
+                                   [&](const Index3& b) { return b[2] < first; });
+    for (; at != stored_.end() && (*at)[2] <= last; ++at) f(*at);
+  }
+
+  /// Places of the planes [k0, k1) in which a stored block lies.
+  [[nodiscard]] std::vector<std::size_t> patched_planes(std::int32_t k0, std::int32_t k1) const;
+  [[nodiscard]] IndexBox box_of_planes(const Slab& slab) const;
+  /// From sample `at` on; the plane is of the slab's own memory.
+  [[nodiscard]] std::byte* row_of(Slab& slab, const Index3& at) const;
+  /// One plane of the value for all that are not patched.
+  void read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const;
+  /// Gets the input's samples where it left some out around a stored block.
+  void complete(Slab& out) const;
+  void patch(Slab& out) const;
+  /// Memory of the slab's own for the planes that are patched.
+  void own_planes(Slab& out) const;
+
+  const EditedSamples& samples_;
+  Volume volume_;
+  std::size_t size_;
+  std::vector<Index3> stored_;  // by (z, y, x)
+};
+
+bool is_within(const std::byte* at, const Buffer<std::byte>& storage) {
+  const std::less<const std::byte*> less;
+  return !less(at, storage.data()) && less(at, storage.data() + storage.size());
+}
+
+std::vector<std::size_t> EditedSlabs::patched_planes(std::int32_t k0, std::int32_t k1) const {
+  std::vector<bool> patched(static_cast<std::size_t>(k1 - k0), false);
+  for_stored(k0, k1, 0, [&](const Index3& at) {
+    const std::int32_t first = std::max(at[2] * kSide, k0) - k0;
+    const std::int32_t last = std::min(at[2] * kSide + kSide, k1) - k0;
+    std::fill(patched.begin() + first, patched.begin() + last, true);
+  });
+  std::vector<std::size_t> out;
+  for (std::size_t n = 0; n < patched.size(); ++n) {
+    if (patched[n]) out.push_back(n);
+  }
+  return out;
+}
+
+void EditedSlabs::read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const {
+  const std::vector<std::size_t> patched = patched_planes(k0, k1);
+  const Index3 dims = volume_.lattice.dims();
+  const std::size_t n = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  Scalar value = *samples_.filled();
+  if (volume_.endian != std::endian::native) {
+    swap_samples(std::span(value.bytes).first(size_), size_);
+  }
+  out.k0 = k0;
+  out.row_stride_bytes = static_cast<std::size_t>(dims[0]) * size_;
+  out.storage.resize(n * size_ * (1 + patched.size()));
+  fill_samples(out.storage.data(), n * (1 + patched.size()), value, size_);
+  out.planes.assign(static_cast<std::size_t>(k1 - k0), out.storage.data());
+  for (std::size_t p = 0; p < patched.size(); ++p) {
+    out.planes[patched[p]] = out.storage.data() + (1 + p) * n * size_;
+  }
+}
+
+void EditedSlabs::own_planes(Slab& out) const {
+  const auto k1 = out.k0 + static_cast<std::int32_t>(out.planes.size());
+  std::vector<std::size_t> copied = patched_planes(out.k0, k1);
+  const auto is_own = [&](std::size_t n) { return is_within(out.planes[n], out.storage); };
+  if (std::all_of(copied.begin(), copied.end(), is_own)) return;
+  Buffer<std::byte> fresh;
+  const bool in_use = std::any_of(out.planes.begin(), out.planes.end(),
+                                  [&](const std::byte* at) { return is_within(at, out.storage); });
+  if (in_use) {
+    copied.resize(out.planes.size());
+    for (std::size_t n = 0; n < copied.size(); ++n) copied[n] = n;
+  }
+  // Rows keep their distance, which is one for all planes; nothing lies beyond the last one.
+  const IndexBox& box = volume_.lattice.box;
+  const std::size_t plane_bytes =
+      out.row_stride_bytes * static_cast<std::size_t>(box.extent(1) - 1) +
+      static_cast<std::size_t>(box.extent(0)) * size_;
+  Buffer<std::byte>& room = in_use ? fresh : out.storage;
+  room.resize(plane_bytes * copied.size());
+  for (std::size_t n = 0; n < copied.size(); ++n) {
+    std::byte* to = room.data() + n * plane_bytes;
+    std::memcpy(to, out.planes[copied[n]], plane_bytes);
+    out.planes[copied[n]] = to;
+  }
+  if (in_use) out.storage = std::move(fresh);
+}
+
+std::byte* EditedSlabs::row_of(Slab& slab, const Index3& at) const {
+  const std::byte* plane = slab.planes[static_cast<std::size_t>(at[2] - slab.k0)];
+  assert(is_within(plane, slab.storage));
+  return slab.storage.data() + (plane - slab.storage.data()) +
+         static_cast<std::size_t>(at[1]) * slab.row_stride_bytes +
+         static_cast<std::size_t>(at[0]) * size_;
+}
+
+IndexBox EditedSlabs::box_of_planes(const Slab& slab) const {
+  IndexBox box = volume_.lattice.box;
+  box.lo[2] = slab.k0;
+  box.hi[2] = slab.k0 + static_cast<std::int32_t>(slab.planes.size()) - 1;
+  return box;
+}
+
+void EditedSlabs::patch(Slab& out) const {
+  if (out.planes.empty()) return;
+  own_planes(out);
+  const IndexBox planes = box_of_planes(out);
+  for_stored(planes.lo[2], planes.hi[2] + 1, 0, [&](const Index3& at) {
+    const std::byte* samples = samples_.layer().find(at)->samples();
+    const Index3 from = origin_of(at);
+    const IndexBox part = common_part(samples_of(at), planes);
+    const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
+    for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
+      for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
+        const auto row = static_cast<std::size_t>((k - from[2]) * kSide + (j - from[1]));
+        std::byte* to = row_of(out, {part.lo[0], j, k});
+        std::memcpy(to, samples + row * kSide * size_, row_bytes);
+        if (volume_.endian != std::endian::native) swap_samples({to, row_bytes}, size_);
+      }
+    }
+  });
+}
+
+void EditedSlabs::complete(Slab& out) const {
+  const IndexBox planes = common_part(box_of_planes(out), out.sides.box());
+  std::vector<std::byte> samples;
+  for_stored(planes.lo[2], planes.hi[2] + 1, kReach, [&](const Index3& at) {
+    IndexBox part = samples_of(at);
+    for (std::size_t a = 0; a < 3; ++a) part.lo[a] -= kReach, part.hi[a] += kReach;
+    part = common_part(part, planes);
+    if (is_empty(part)) return;
+    part = out.sides.whole_blocks(part);
+    if (out.sides.take_back(part) == 0) return;
+    const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
+    samples.resize(row_bytes * static_cast<std::size_t>(part.extent(1) * part.extent(2)));
+    input().read_box(part, samples);
+    const std::byte* from = samples.data();
+    for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
+      for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j, from += row_bytes) {
+        std::memcpy(row_of(out, {part.lo[0], j, k}), from, row_bytes);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+std::unique_ptr<SlabReader> make_slab_reader(const EditedSamples& samples, const Volume& volume) {
+  return std::make_unique<EditedSlabs>(samples, volume);
+}
+
+}  // namespace mc::edit
