@@ -56,7 +56,6 @@ struct BrushShape {
 };
 
 enum class FalloffType : std::uint8_t {
-  none,  ///< 1 wherever the operation reaches: csg beyond the shape, stamps all over; else as hard
   hard,
   linear,
   smoothstep,
@@ -64,6 +63,7 @@ enum class FalloffType : std::uint8_t {
   spherical,
   tip,
   curve,
+  none,  ///< 1 wherever the operation reaches: csg beyond the shape, stamps all over; else as hard
 };
 
 /// The weight from 1 at inner * R to 0 at R, the shape's inradius; see mc-edits(5).

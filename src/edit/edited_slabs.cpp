@@ -113,6 +113,7 @@ void EditedSlabs::read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const {
   if (volume_.endian != std::endian::native) {
     swap_samples(std::span(value.bytes).first(size_), size_);
   }
+  out.i0 = out.j0 = 0;
   out.k0 = k0;
   out.row_stride_bytes = static_cast<std::size_t>(dims[0]) * size_;
   out.storage.resize(n * size_ * (1 + patched.size()));

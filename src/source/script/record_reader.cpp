@@ -153,7 +153,7 @@ void RecordReader::fill_edit(ScriptRecord& record, ObjectReader& keys, const Rul
   edit.op = rule.op;
   edit.clamp = context_.header.clamp;
   // What is cut sharply by default: only a brush that adds up is soft.
-  edit.falloff.type = FalloffType::hard;
+  edit.falloff.type = FalloffType::none;
   if (rule.blend) fill_blend(edit, keys);
   if (rule.brush) fill_brush(edit, keys);
   if (rule.symmetry) fill_symmetry(edit, keys);
@@ -196,7 +196,8 @@ void RecordReader::fill_brush(Edit& edit, ObjectReader& keys) {
   }
   const bool soft = edit.blend == Blend::accumulate && edit.op != EditOp::paint;
   if (soft) edit.falloff.type = FalloffType::smoothstep;
-  if (const JsonValue* falloff = setting(keys, "falloff")) {
+  const bool own = edit.blend == Blend::csg;  // a default would keep csg within the shape
+  if (const JsonValue* falloff = own ? keys.optional("falloff") : setting(keys, "falloff")) {
     edit.falloff = read_falloff(document_, *falloff);
   }
 }

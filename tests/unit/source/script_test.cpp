@@ -61,13 +61,13 @@ TEST(Script, AddIsSoftAndOfStrengthOne) {
   EXPECT_FALSE(edit.path || edit.mirror || edit.radial || edit.mask);
 }
 
-TEST(Script, CsgIsHard) {
+TEST(Script, CsgHasNoFalloff) {
   const Edit edit = edit_of(
       R"({"op":"subtract","blend":"csg","smooth":1.5,"shape":{"type":"box","center":[90,10,90],)"
       R"("size":[8,4,8],"rotate":[0,90,0]},"mirror":"x"})");
   EXPECT_EQ(edit.blend, Blend::csg);
   EXPECT_EQ(edit.smooth, 1.5);
-  EXPECT_EQ(edit.falloff.type, FalloffType::hard);
+  EXPECT_EQ(edit.falloff.type, FalloffType::none);
   EXPECT_EQ(edit.shape.size, (Vec3{8, 4, 8}));
   EXPECT_EQ(edit.shape.turn.m, (std::array<double, 9>{0, 0, 1, 0, 1, 0, -1, 0, 0}));
   ASSERT_TRUE(edit.mirror);
