@@ -139,10 +139,6 @@ class SideMap {
   /// Leaves out the samples of a box of whole blocks along j (or up to the end), within one block
   /// along k.
   void leave_out(const IndexBox& part, bool above);
-  /// The least box around `part` that is whole blocks along j and k, or up to the ends.
-  [[nodiscard]] IndexBox whole_blocks(const IndexBox& part) const;
-  /// The samples of such a box are there after all. Returns how many of them were left out.
-  std::uint64_t take_back(const IndexBox& part);
 
   [[nodiscard]] bool empty() const { return known_.empty(); }
   [[nodiscard]] const IndexBox& box() const { return box_; }
@@ -207,10 +203,6 @@ class SlabReader {
   /// an infinity of their side.
   virtual void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
                             Slab& out) const;
-  /// Copies the samples of `box` (within the volume's), x fastest, in the volume's type and byte
-  /// order. `out` holds box samples * sample_size bytes. Threads, errors: as read().
-  /// Cost     reading the box's planes; of a spec only the box.
-  virtual void read_box(const IndexBox& box, std::span<std::byte> out) const;
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
   /// Whether the planes pass by once (pipes): reads come one at a time, no k0 is lower than the one

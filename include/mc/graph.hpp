@@ -173,12 +173,6 @@ class GraphField {
   /// Cost     O(samples * nodes); what does not depend on y is computed once a plane.
   void sample(const Vec3& origin, const Vec3& spacing, const Index3& first, View3<float> out) const;
 
-  /// sample(), at any places: those of the lattice indices under `to_place`, rounded to float.
-  /// Where its axes are those of the coordinates, the bits are those of the other sample(). Cost as
-  /// that one's there; else what does not depend on y is computed for each row, or for
-  ///          each sample where y differs along rows.
-  void sample(const Affine& to_place, const Index3& first, View3<float> out) const;
-
   /// sample(), where `query` looks: fills what SlabReader::read_surface() promises, within the part
   /// of the query's region (lattice indices) that `out` covers, and notes in `sides` what is left
   /// out of it.

@@ -4,6 +4,8 @@
 #include <cassert>
 #include <limits>
 
+#include "edit/place_samples.hpp"
+
 // The weights of a brush over one block: rows are measured position by position, the nearest of a
 // group counts, and a mask takes its part.
 
@@ -43,7 +45,7 @@ void sample_block(const GraphField& field, const Affine& to_place, const IndexBo
   view.data += (offset(first[2]) * kSide + offset(first[1])) * kSide;
   view.dims = {kSide, static_cast<std::int32_t>(part.extent(1)),
                static_cast<std::int32_t>(part.extent(2))};
-  field.sample(to_place, first, view);
+  sample_places(field, to_place, first, view);
 }
 
 void BlockWeigher::measure(const Index3& block, const Position& at, Rows& rows) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "edit/edited_reader.hpp"
+#include "field/box_reader.hpp"
 
 // An edited dense volume as planes. Planes without a stored block are the input's own memory; the
 // others are copied and patched.
@@ -15,7 +16,85 @@ namespace mc::edit {
 
 namespace {
 
-class EditedSlabs final : public SlabReader {
+/// Which samples of some planes are left out, one bit each, in rows as a SideMap's.
+class SampleBits {
+ public:
+  explicit SampleBits(const SideMap& sides) : box_(sides.box()) {
+    for_rows([&](std::int32_t j, std::int32_t k) {
+      const auto row = sides.known(j, k);
+      n_words_ = row.size();
+      bits_.insert(bits_.end(), row.begin(), row.end());
+    });
+  }
+
+  [[nodiscard]] bool any(const IndexBox& part) {
+    bool found = false;
+    for_words(part, [&](std::uint64_t& word, std::uint64_t bits) {
+      found = found || (word & bits) != 0;
+    });
+    return found;
+  }
+  void clear(const IndexBox& part) {
+    for_words(part, [](std::uint64_t& word, std::uint64_t bits) { word &= ~bits; });
+  }
+  /// The runs that are left, on the sides that `from` tells.
+  [[nodiscard]] SideMap to_sides(const SideMap& from) const {
+    SideMap out;
+    out.reset(box_, 1, 1);
+    for_rows([&](std::int32_t j, std::int32_t k) {
+      const std::uint64_t* row = bits_.data() + first_word(j, k);
+      const auto above = from.above(j, k);
+      const auto n = static_cast<std::size_t>(box_.extent(0));
+      const auto bit = [](const std::uint64_t* words, std::size_t at) {
+        return (words[at / 64] >> (at % 64) & 1U) != 0;
+      };
+      for (std::size_t at = 0; at < n;) {
+        const std::size_t first = at++;
+        if (!bit(row, first)) continue;
+        const bool side = bit(above.data(), first);
+        while (at < n && bit(row, at) && bit(above.data(), at) == side) ++at;
+        const auto index = [&](std::size_t i) { return box_.lo[0] + static_cast<std::int32_t>(i); };
+        out.leave_out({{index(first), j, k}, {index(at - 1), j, k}}, side);
+      }
+    });
+    return out;
+  }
+
+ private:
+  template <class F>
+  void for_rows(F f) const {
+    for (std::int32_t k = box_.lo[2]; k <= box_.hi[2]; ++k) {
+      for (std::int32_t j = box_.lo[1]; j <= box_.hi[1]; ++j) f(j, k);
+    }
+  }
+  [[nodiscard]] std::size_t first_word(std::int32_t j, std::int32_t k) const {
+    const auto row =
+        static_cast<std::size_t>(k - box_.lo[2]) * static_cast<std::size_t>(box_.extent(1)) +
+        static_cast<std::size_t>(j - box_.lo[1]);
+    return row * n_words_;
+  }
+  template <class F>
+  void for_words(const IndexBox& part, F f) {
+    const auto first = static_cast<std::size_t>(part.lo[0] - box_.lo[0]);
+    const auto last = static_cast<std::size_t>(part.hi[0] - box_.lo[0]) + 1;
+    for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
+      for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
+        std::uint64_t* row = bits_.data() + first_word(j, k);
+        for (std::size_t at = first; at < last;) {
+          const std::size_t n = std::min(last - at, 64 - at % 64);
+          f(row[at / 64], (~std::uint64_t{0} >> (64 - n)) << (at % 64));
+          at += n;
+        }
+      }
+    }
+  }
+
+  IndexBox box_;
+  std::size_t n_words_ = 0;
+  std::vector<std::uint64_t> bits_;
+};
+
+class EditedSlabs final : public SlabReader, public field::BoxReader {
  public:
   EditedSlabs(const EditedSamples& samples, const Volume& volume)
       : samples_(samples), volume_(volume), size_(samples.input().sample_bytes()) {
@@ -76,6 +155,7 @@ class EditedSlabs final : public SlabReader {
   void read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const;
   /// Gets the input's samples where it left some out around a stored block.
   void complete(Slab& out) const;
+  void copy_input(const IndexBox& part, Slab& out) const;
   void patch(Slab& out) const;
   /// Memory of the slab's own for the planes that are patched.
   void own_planes(Slab& out) const;
@@ -188,24 +268,33 @@ void EditedSlabs::patch(Slab& out) const {
 
 void EditedSlabs::complete(Slab& out) const {
   const IndexBox planes = common_part(box_of_planes(out), out.sides.box());
-  std::vector<std::byte> samples;
+  std::vector<IndexBox> rings;  // what must be there
   for_stored(planes.lo[2], planes.hi[2] + 1, kReach, [&](const Index3& at) {
-    IndexBox part = samples_of(at);
-    for (std::size_t a = 0; a < 3; ++a) part.lo[a] -= kReach, part.hi[a] += kReach;
-    part = common_part(part, planes);
-    if (is_empty(part)) return;
-    part = out.sides.whole_blocks(part);
-    if (out.sides.take_back(part) == 0) return;
-    const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
-    samples.resize(row_bytes * static_cast<std::size_t>(part.extent(1) * part.extent(2)));
-    input().read_box(part, samples);
-    const std::byte* from = samples.data();
-    for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
-      for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j, from += row_bytes) {
-        std::memcpy(row_of(out, {part.lo[0], j, k}), from, row_bytes);
-      }
-    }
+    IndexBox ring = samples_of(at);
+    for (std::size_t a = 0; a < 3; ++a) ring.lo[a] -= kReach, ring.hi[a] += kReach;
+    ring = common_part(ring, planes);
+    if (!is_empty(ring)) rings.push_back(ring);
   });
+  if (rings.empty()) return;
+  SampleBits left_out(out.sides);
+  for (const IndexBox& ring : rings) {
+    if (left_out.any(ring)) copy_input(ring, out);
+  }
+  for (const IndexBox& ring : rings) left_out.clear(ring);
+  out.sides = left_out.to_sides(out.sides);
+}
+
+void EditedSlabs::copy_input(const IndexBox& part, Slab& out) const {
+  const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
+  std::vector<std::byte> samples(row_bytes *
+                                 static_cast<std::size_t>(part.extent(1) * part.extent(2)));
+  field::read_box(input(), part, samples);
+  const std::byte* from = samples.data();
+  for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
+    for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j, from += row_bytes) {
+      std::memcpy(row_of(out, {part.lo[0], j, k}), from, row_bytes);
+    }
+  }
 }
 
 }  // namespace

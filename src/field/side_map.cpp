@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cassert>
 
 #include "mc/field.hpp"
@@ -55,47 +53,17 @@ void SideMap::leave_out(const IndexBox& part, bool above) {
       static_cast<std::uint64_t>(part.extent(0) * part.extent(1)) * std::uint64_t(part.extent(2));
 }
 
-IndexBox SideMap::whole_blocks(const IndexBox& part) const {
-  assert(box_.contains(part));
-  IndexBox out = part;
-  const std::array<std::int32_t, 3> sizes{1, rows_, planes_};
-  for (std::size_t a = 1; a < 3; ++a) {
-    out.lo[a] -= (part.lo[a] - box_.lo[a]) % sizes[a];
-    const std::int64_t last =
-        std::int64_t{part.hi[a]} - (part.hi[a] - box_.lo[a]) % sizes[a] + (sizes[a] - 1);
-    out.hi[a] = static_cast<std::int32_t>(std::min<std::int64_t>(last, box_.hi[a]));
-  }
-  return out;
-}
-
-std::uint64_t SideMap::take_back(const IndexBox& part) {
-  assert(whole_blocks(part) == part);
-  std::vector<std::uint64_t> bits(n_words_, 0);
-  set_bits(bits.data(), static_cast<std::size_t>(part.lo[0] - box_.lo[0]),
-           static_cast<std::size_t>(part.hi[0] - box_.lo[0]) + 1);
-  std::uint64_t n_back = 0;
-  for (std::int32_t k = part.lo[2]; k <= part.hi[2]; k += planes_) {
-    for (std::int32_t j = part.lo[1]; j <= part.hi[1]; j += rows_) {
-      const auto n_rows = static_cast<std::uint64_t>(std::min(rows_, part.hi[1] - j + 1));
-      const auto n_planes = static_cast<std::uint64_t>(std::min(planes_, part.hi[2] - k + 1));
-      const std::size_t at = row(j, k);
-      for (std::size_t w = 0; w < n_words_; ++w) {
-        const std::uint64_t back = known_[at + w] & bits[w];
-        known_[at + w] &= ~back;
-        above_[at + w] &= ~back;
-        n_back += static_cast<std::uint64_t>(std::popcount(back)) * n_rows * n_planes;
-      }
-    }
-  }
-  n_left_out_ -= n_back;
-  return n_back;
-}
-
 std::size_t SideMap::row(std::int32_t j, std::int32_t k) const {
   assert(j >= box_.lo[1] && j <= box_.hi[1] && k >= box_.lo[2] && k <= box_.hi[2]);
   const auto row_block = static_cast<std::size_t>((j - box_.lo[1]) / rows_);
   const auto plane_block = static_cast<std::size_t>((k - box_.lo[2]) / planes_);
   return (plane_block * n_row_blocks_ + row_block) * n_words_;
+}
+
+void SlabReader::read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& /*query*/,
+                              Slab& out) const {
+  out.sides.clear();
+  read(k0, k1, out);
 }
 
 }  // namespace mc

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <cstdint>
 #include <utility>
 
 #include "graph/machine.hpp"
@@ -39,35 +37,6 @@ void GraphField::sample(const Vec3& origin, const Vec3& spacing, const Index3& f
         machine.set_y(at(1, j));
         machine.run(program_->deep());
         std::copy_n(machine.row(program_->result), n, plane + j * out.row_stride + i);
-      }
-    }
-  }
-}
-
-void GraphField::sample(const Affine& to_place, const Index3& first, View3<float> out) const {
-  const std::array<double, 12>& m = to_place.m;
-  const bool along_axes =
-      m[1] == 0 && m[2] == 0 && m[4] == 0 && m[6] == 0 && m[8] == 0 && m[9] == 0;
-  if (along_axes) return sample({m[3], m[7], m[11]}, {m[0], m[5], m[10]}, first, out);
-  graph::Machine machine(*program_);
-  const std::int32_t most = m[4] == 0 ? std::int32_t{graph::kPiece} : 1;
-  for (std::int32_t k = 0; k < out.dims[2]; ++k) {
-    for (std::int32_t j = 0; j < out.dims[1]; ++j) {
-      float* row = out.data + k * out.plane_stride + j * out.row_stride;
-      for (std::int32_t i = 0; i < out.dims[0]; i += most) {
-        const std::int32_t n = std::min(out.dims[0] - i, most);
-        for (std::int32_t s = 0; s < n; ++s) {
-          const Vec3 place =
-              to_place({static_cast<double>(first[0] + i + s), static_cast<double>(first[1] + j),
-                        static_cast<double>(first[2] + k)});
-          machine.x()[s] = static_cast<float>(place[0]);
-          machine.z()[s] = static_cast<float>(place[2]);
-          machine.set_y(static_cast<float>(place[1]));
-        }
-        machine.set_count(static_cast<std::size_t>(n));
-        machine.run(program_->flat());
-        machine.run(program_->deep());
-        std::copy_n(machine.row(program_->result), n, row + i);
       }
     }
   }

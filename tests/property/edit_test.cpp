@@ -20,10 +20,9 @@ namespace {
 constexpr Index3 kDims{19, 13, 17};
 
 /// Places of samples in the world: plain, stretched and mirrored, sheared, turned by a permutation.
-const std::vector<Affine> kPlaces{
-    Affine{}, Affine::scale_translate({0.5, -1.25, 2}, {-3, 4, 5}),
-    Affine{{1, 0.3, 0, 2, 0.1, 1.2, -0.2, 0, 0, 0.25, 0.8, -1}},
-    Affine{{0, 0, 1.5, 0, 1, 0, 0, 3, 0, -0.75, 0, 1}}};
+const std::vector<Affine> kPlaces{Affine{}, Affine::scale_translate({0.5, -1.25, 2}, {-3, 4, 5}),
+                                  Affine{{1, 0.3, 0, 2, 0.1, 1.2, -0.2, 0, 0, 0.25, 0.8, -1}},
+                                  Affine{{0, 0, 1.5, 0, 1, 0, 0, 3, 0, -0.75, 0, 1}}};
 
 Vec3 middle_of(const Affine& map, const Index3& dims) {
   return map({dims[0] / 2.0, dims[1] / 2.0, dims[2] / 2.0});
@@ -93,8 +92,8 @@ TYPED_TEST(EditLaws, BitsAreTheReferences) {
       const EditEffect effect = store.apply(edit);
       const auto got = read_all<TypeParam>(store, kDims);
       ASSERT_TRUE(same_bits(got, trial.reference.samples))
-          << "seed " << seed << ", edit " << n << ", op " << static_cast<int>(edit.op)
-          << ", shape " << static_cast<int>(edit.shape.type) << ", sample "
+          << "seed " << seed << ", edit " << n << ", op " << static_cast<int>(edit.op) << ", shape "
+          << static_cast<int>(edit.shape.type) << ", sample "
           << first_difference(got, trial.reference.samples);
       ASSERT_EQ(effect.n_samples, trial.reference.reached.size()) << seed << " " << n;
       if (edit.op != EditOp::flatten) ASSERT_EQ(planned.n_samples, effect.n_samples);
@@ -182,8 +181,7 @@ TYPED_TEST(EditLaws, ReadersGiveTheEditedVolume) {
     Trial<TypeParam> trial(seed, true, kPlaces[seed % kPlaces.size()]);
     EditStore store(trial.input, trial.rules);
     for (int n = 0; n < 6; ++n) {
-      store.apply(seed == 22 && n == 2 ? Edit{.op = EditOp::fill, .value = 2}
-                                       : trial.edits.next());
+      store.apply(seed == 22 && n == 2 ? Edit{.op = EditOp::fill, .value = 2} : trial.edits.next());
       const IndexBox box = store.volume().lattice.box;
       ASSERT_TRUE(same_bits(through_reader<TypeParam>(store.reader(), box),
                             read_all<TypeParam>(store, kDims)))
@@ -203,8 +201,8 @@ TYPED_TEST(EditLaws, SparseIsDenseAsAField) {
       const int at = ((n / 256 + 8) * 40 + n / 16 % 16 + 8) * 40 + n % 16 + 8;
       whole[static_cast<std::size_t>(at)] = samples[static_cast<std::size_t>(n)];
     }
-    auto leaves = std::make_unique<MemoryLeaves>(samples, Index3{16, 16, 16}, Index3{8, 8, 8},
-                                                 background);
+    auto leaves =
+        std::make_unique<MemoryLeaves>(samples, Index3{16, 16, 16}, Index3{8, 8, 8}, background);
     leaves->add_tile({{0, 0, 32}, 8, Scalar::of(samples[1]), true});
     for (int n = 0; n < 512; ++n) {
       whole[static_cast<std::size_t>(((n / 64 + 32) * 40 + n / 8 % 8) * 40 + n % 8)] = samples[1];
@@ -226,7 +224,8 @@ TYPED_TEST(EditLaws, SparseIsDenseAsAField) {
           << seed << " " << n;
     }
     const IndexBox box{{0, 0, 0}, {39, 39, 39}};
-    ASSERT_TRUE(same_bits(through_reader<TypeParam>(a.reader(), box), read_all<TypeParam>(b, kWhole)));
+    ASSERT_TRUE(
+        same_bits(through_reader<TypeParam>(a.reader(), box), read_all<TypeParam>(b, kWhole)));
   }
 }
 

@@ -52,10 +52,10 @@ class RandomEdits {
   bool chance(double p) { return real(0, 1) < p; }
 
   Edit next() {
-    static constexpr std::array kOps{EditOp::add,     EditOp::add,    EditOp::subtract,
-                                     EditOp::subtract, EditOp::set,   EditOp::smooth,
-                                     EditOp::flatten, EditOp::inflate, EditOp::noise,
-                                     EditOp::revert,  EditOp::stamp,  EditOp::paint};
+    static constexpr std::array kOps{EditOp::add,      EditOp::add,     EditOp::subtract,
+                                     EditOp::subtract, EditOp::set,     EditOp::smooth,
+                                     EditOp::flatten,  EditOp::inflate, EditOp::noise,
+                                     EditOp::revert,   EditOp::stamp,   EditOp::paint};
     return next(kOps[whole(0, kOps.size() - 1)]);
   }
 

@@ -71,7 +71,7 @@ class ReferenceVolume {
   }
   static float graph_at(const GraphField& field, const Affine& map, const Index3& p) {
     float value = 0;
-    field.sample(map, p, View3<float>(&value, {1, 1, 1}));
+    field.sample(place(map, p), {0, 0, 0}, {0, 0, 0}, View3<float>(&value, {1, 1, 1}));
     return value;
   }
   /// m0 i + ((m1 j + m2 k) + m3)
@@ -135,8 +135,7 @@ double ReferenceVolume<T>::inradius(const Edit& edit) const {
     case ShapeType::cone: {
       // The largest ball sits on the larger cap and touches the slope, or both caps.
       const double big = std::max(s.radius, s.end_radius);
-      const double fall =
-          (big - std::min(s.radius, s.end_radius)) / (2 * (s.height / 2));
+      const double fall = (big - std::min(s.radius, s.end_radius)) / (2 * (s.height / 2));
       const double cosine = 1 / std::sqrt(1 + fall * fall);
       return std::min(s.height / 2, big * cosine / (1 + fall * cosine));
     }
@@ -169,8 +168,7 @@ double ReferenceVolume<T>::shape_distance(const Edit& edit, const edit::Position
   }
   const auto box = [](const Vec3& v, const Vec3& half) {
     const Vec3 d{std::abs(v[0]) - half[0], std::abs(v[1]) - half[1], std::abs(v[2]) - half[2]};
-    const double outside =
-        size_of({std::max(d[0], 0.0), std::max(d[1], 0.0), std::max(d[2], 0.0)});
+    const double outside = size_of({std::max(d[0], 0.0), std::max(d[1], 0.0), std::max(d[2], 0.0)});
     return outside + std::min(std::max(d[0], std::max(d[1], d[2])), 0.0);
   };
   switch (s.type) {
@@ -197,8 +195,8 @@ double ReferenceVolume<T>::shape_distance(const Edit& edit, const edit::Position
       const double t = std::clamp((dx * sx + dy * sy) / (sx * sx + sy * sy), 0.0, 1.0);
       const double side_x = sx * t - dx;
       const double side_y = sy * t - dy;
-      const double d = std::sqrt(
-          std::min(side_x * side_x + side_y * side_y, cap_x * cap_x + cap_y * cap_y));
+      const double d =
+          std::sqrt(std::min(side_x * side_x + side_y * side_y, cap_x * cap_x + cap_y * cap_y));
       return side_x < 0 && cap_y < 0 ? -d : d;
     }
     case ShapeType::ellipsoid: {
@@ -232,8 +230,7 @@ double ReferenceVolume<T>::falloff(const Falloff& f, double r, double radius, do
   if (f.type == FalloffType::none) return sd <= reach ? 1 : 0;
   if (!(sd <= 0)) return 0;
   if (f.type == FalloffType::hard || !(radius > 0)) return 1;
-  const double t =
-      std::clamp((r - f.inner * radius) / (radius - f.inner * radius), 0.0, 1.0);
+  const double t = std::clamp((r - f.inner * radius) / (radius - f.inner * radius), 0.0, 1.0);
   switch (f.type) {
     case FalloffType::linear:
       return 1 - t;
@@ -263,8 +260,7 @@ auto ReferenceVolume<T>::weight(const Edit& edit, const std::vector<edit::Positi
   double best_r = 0;
   double best_radius = 0;
   out.sd = std::numeric_limits<double>::infinity();
-  const bool ball =
-      edit.shape.type == ShapeType::sphere || edit.shape.type == ShapeType::capsule;
+  const bool ball = edit.shape.type == ShapeType::sphere || edit.shape.type == ShapeType::capsule;
   for (const edit::Position& at : group) {
     double r, radius, sd;
     if (ball) {
@@ -272,8 +268,7 @@ auto ReferenceVolume<T>::weight(const Edit& edit, const std::vector<edit::Positi
       if (at.length > 0) {
         const auto& u = at.along;
         const double foot = (q[0] * u[0] + q[1] * u[1]) + q[2] * u[2];
-        const double radial =
-            size_of({q[0] - u[0] * foot, q[1] - u[1] * foot, q[2] - u[2] * foot});
+        const double radial = size_of({q[0] - u[0] * foot, q[1] - u[1] * foot, q[2] - u[2] * foot});
         const double s = std::clamp(foot - radial * at.slope, 0.0, at.length);
         r = std::sqrt(radial * radial + (foot - s) * (foot - s));
         radius = at.radius - at.taper * s;
@@ -369,7 +364,9 @@ double ReferenceVolume<T>::stamp(const Edit& edit, const edit::Position& at,
     return static_cast<double>(
         s.samples[static_cast<std::size_t>((q[2] * s.dims[1] + q[1]) * s.dims[0] + q[0])]);
   };
-  const auto mix = [](double a, double b, double part) { return part > 0 ? a + (b - a) * part : a; };
+  const auto mix = [](double a, double b, double part) {
+    return part > 0 ? a + (b - a) * part : a;
+  };
   const auto plane = [&](std::int32_t k) {
     return mix(mix(sample(0, 0, k), sample(1, 0, k), t[0]),
                mix(sample(0, 1, k), sample(1, 1, k), t[0]), t[1]);
@@ -412,8 +409,7 @@ std::optional<FlattenPlane> ReferenceVolume<T>::fitted(const std::vector<Weight>
         const double t = (rules.iso - from) / (to - from);
         const Vec3 g = gradient(before, p);
         if (std::isnan(t) || std::isnan(size_of(g))) continue;
-        Vec3 index{static_cast<double>(p[0]), static_cast<double>(p[1]),
-                   static_cast<double>(p[2])};
+        Vec3 index{static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2])};
         index[a] += t;
         const Vec3 at_world = rules.to_world(index);
         part += w;
@@ -488,7 +484,8 @@ void ReferenceVolume<T>::apply_group(const Edit& edit, const std::vector<edit::P
         case EditOp::flatten: {
           const Vec3 q = place(rules.to_world, p);
           double distance = 0;
-          for (std::size_t a = 0; a < 3; ++a) distance += (q[a] - plane->point[a]) * plane->normal[a];
+          for (std::size_t a = 0; a < 3; ++a)
+            distance += (q[a] - plane->point[a]) * plane->normal[a];
           value = mixed(d, rules.iso - solid * distance, t);
           break;
         }

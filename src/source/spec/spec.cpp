@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/checked.hpp"
+#include "field/box_reader.hpp"
 #include "source/spec/document.hpp"
 
 // The reader of procedural volumes: planes are computed into the slab's own memory.
@@ -18,7 +19,7 @@ namespace mc::source {
 
 namespace {
 
-class SpecReader final : public SlabReader {
+class SpecReader final : public SlabReader, public field::BoxReader {
  public:
   explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {}
 
