@@ -96,7 +96,9 @@ TYPED_TEST(EditLaws, BitsAreTheReferences) {
           << static_cast<int>(edit.shape.type) << ", sample "
           << first_difference(got, trial.reference.samples);
       ASSERT_EQ(effect.n_samples, trial.reference.reached.size()) << seed << " " << n;
-      if (edit.op != EditOp::flatten) ASSERT_EQ(planned.n_samples, effect.n_samples);
+      if (edit.op != EditOp::flatten) {
+        ASSERT_EQ(planned.n_samples, effect.n_samples);
+      }
       for (std::size_t at = 0; at < got.size(); ++at) {
         if (std::memcmp(&got[at], &before[at], sizeof(TypeParam)) == 0) continue;
         const auto i = static_cast<std::int32_t>(at);

@@ -24,10 +24,12 @@ namespace mc::test {
 template <class T>
 class ReferenceVolume {
  public:
-  ReferenceVolume(std::vector<T> samples, Index3 dims, const EditRules& rules)
-      : rules(rules), dims(dims), input(samples), samples(std::move(samples)) {
-    materials.resize(this->samples.size(), 0);
-  }
+  ReferenceVolume(const std::vector<T>& its_samples, Index3 its_dims, const EditRules& its_rules)
+      : rules(its_rules),
+        dims(its_dims),
+        input(its_samples),
+        samples(its_samples),
+        materials(its_samples.size(), 0) {}
 
   void apply(const Edit& edit);
 
@@ -447,21 +449,21 @@ void ReferenceVolume<T>::apply_group(const Edit& edit, const std::vector<edit::P
   for (std::uint32_t n = 0; n < times; ++n) {
     const std::vector<T> before = samples;
     for_all([&](const Index3& p) {
-      const Weight& weight = weights[at(p)];
+      const Weight& here = weights[at(p)];
       double stamped = 0;
-      if (edit.op == EditOp::stamp && weight.w > 0) {
+      if (edit.op == EditOp::stamp && here.w > 0) {
         stamped = stamp(edit, group.front(), p) - edit.stamp_iso;
         if (!edit.stamp_above) stamped = -stamped;
         if (std::isnan(stamped)) return;
       }
-      if (!(weight.w > 0)) return;
+      if (!(here.w > 0)) return;
       reached.insert(at(p));
       const double d = number(before[at(p)]);
       const auto added = [&](double amount, double b) {
-        const double sum = d + amount * weight.w * b;
+        const double sum = d + amount * here.w * b;
         return sum < edit.clamp[0] ? edit.clamp[0] : sum > edit.clamp[1] ? edit.clamp[1] : sum;
       };
-      const double t = s * weight.w;
+      const double t = s * here.w;
       double value = d;
       switch (edit.op) {
         case EditOp::add:
@@ -470,7 +472,7 @@ void ReferenceVolume<T>::apply_group(const Edit& edit, const std::vector<edit::P
           if (edit.blend == Blend::accumulate) {
             value = added(less ? -(solid * s) : solid * s, 1);
           } else {
-            const double distance = less ? weight.sd : -weight.sd;
+            const double distance = less ? here.sd : -here.sd;
             value = mixed(d, csg(edit, d, rules.iso + solid * distance, less), t);
           }
           break;
@@ -515,7 +517,7 @@ void ReferenceVolume<T>::apply_group(const Edit& edit, const std::vector<edit::P
           break;
         }
         case EditOp::paint:
-          if (weight.w >= 0.5) materials[at(p)] = edit.material;
+          if (here.w >= 0.5) materials[at(p)] = edit.material;
           return;
         case EditOp::fill:
           return;
