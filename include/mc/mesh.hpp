@@ -46,7 +46,7 @@ struct MeshTotals {
 };
 
 /// Part of a mesh, in order: its vertices follow those of the chunks before it. An index names
-/// vertex index_base + index of the whole mesh, which may lie in a later chunk.
+/// vertex index_base + index of the whole mesh, which may lie in another chunk.
 struct MeshChunk {
   std::uint64_t index_base = 0;
   Buffer<float> positions;        ///< x, y, z each; empty when double precision was asked for
@@ -74,11 +74,17 @@ struct MeshObject {
   std::optional<std::uint64_t> n_triangles;
 };
 
+/// Bytes that a sink makes, at most, of each vertex and each triangle of a chunk, beside the chunk.
+struct Formatted {
+  std::uint32_t vertex_bytes = 0;
+  std::uint32_t triangle_bytes = 0;
+};
+
 /// What a sink needs to know before it can say how positions must come.
 struct MeshNeeds {
   Precision precision = Precision::f32;  ///< of positions
   bool relative_origin = false;          ///< positions come relative to MeshObject::origin
-  std::uint32_t formatted = 1;           ///< bytes it makes of a byte of chunk, about
+  Formatted formatted;
 };
 
 /// The port by which meshes leave. Calls: set_slots, (begin_object, chunks, end_object)..., finish.

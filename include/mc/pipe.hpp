@@ -26,9 +26,10 @@ struct RunOptions {
   MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
   std::uint64_t memory_bytes = 1ULL << 30;  ///< the run's own buffers stay within it
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
+  std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
   CountFirst count_first = CountFirst::no;  ///< no, where the reader reads once
-  bool skip = true;  ///< let the reader leave out samples far from the surface; same mesh
-  std::uint32_t formatted = 0;  ///< MeshNeeds::formatted of the sink
+  bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
+  Formatted formatted;  ///< MeshNeeds::formatted of the sink
 };
 
 /// What a run of these options over this volume will hold at most, in bytes, without mapped input.

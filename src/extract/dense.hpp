@@ -3,17 +3,15 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
-#include "extract/plane_bits.hpp"
+#include "extract/dense_grid.hpp"
 #include "extract/shared_planes.hpp"
 #include "extract/surface_sums.hpp"
-#include "extract/vertex_writer.hpp"
+#include "extract/vertex_pass.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
+#include "mesh/chunk_room.hpp"
 
 // Flying Edges over dense slabs (Schroeder, Maynard, Geveci, LDAV 2015), with one bit a sample
 // instead of a case a cell: plane by plane the samples are classified to bits, the crossed edges
@@ -31,80 +29,77 @@ namespace mc::extraction {
 /// Holds scratch: one to a thread.
 class DenseExtractor {
  public:
-  /// Errors: limit, where one layer could hold more vertices than 32-bit ids can name.
-  DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options);
+  explicit DenseExtractor(const DenseGrid& grid);
+  DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options)
+      : DenseExtractor(DenseGrid(volume, to_world, options)) {}
   /// Starts with a part.
   DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options,
-                 const IndexBox& part);
+                 const IndexBox& part)
+      : DenseExtractor(DenseGrid(volume, to_world, options, part)) {}
 
-  /// From now on makes only the cells between these samples of whole(): as they are in the surface
-  /// of all, with its vertices and normals. Layers and ids count from the part's lowest sample.
-  /// Errors: as the constructor's. Allocates nothing where an earlier part had the same size.
+  /// As DenseGrid's. Allocates nothing where an earlier part had the same size.
   void set_part(const IndexBox& part);
   /// All samples that cells lie between, those of a closed border's constant layer included.
-  [[nodiscard]] IndexBox whole() const { return classifier_.whole(); }
+  [[nodiscard]] IndexBox whole() const { return grid_.classifier.whole(); }
   /// The samples that the part is made of: its own and those that its normals look at.
-  [[nodiscard]] const IndexBox& samples() const { return classifier_.box(); }
-
+  [[nodiscard]] const IndexBox& samples() const { return grid_.classifier.box(); }
   /// Layers of cells, those to a closed border included.
-  [[nodiscard]] std::int32_t n_layers() const { return n_layers_; }
-  /// Most layers that one slab may have for its ids to fit 32 bits.
-  [[nodiscard]] std::int32_t max_layers() const;
-  /// The volume's planes [first, second) that layers [l0, l1) need.
-  [[nodiscard]] std::pair<std::int32_t, std::int32_t> planes_for(std::int32_t l0,
-                                                                 std::int32_t l1) const;
+  [[nodiscard]] std::int32_t n_layers() const { return grid_.n_layers; }
+
   /// Bytes of scratch.
-  [[nodiscard]] std::uint64_t scratch_bytes() const;
+  static std::uint64_t scratch_bytes(const DenseGrid& grid);
 
   /// Lets slabs of one run classify the planes between them once. `planes` must outlive the run.
   void share(SharedPlanes* planes) { shared_ = planes; }
 
-  /// Makes the surface of layers [l0, l1). `slab` holds at least the planes of planes_for(), of
-  /// these the rows and columns of samples(). Indices in `chunk` count from the slab's first
-  /// vertex.
+  /// Makes the surface of layers from l0 up to l1, or up to the layer with which `chunk` would hold
+  /// more than `most_bytes`: of that there is nothing in it. `slab` holds at least the planes of
+  /// DenseGrid::planes_for(), of these the rows and columns of samples(). Indices in `chunk` count
+  /// from the slab's first vertex. Returns the layer after the last; where that is l0, the vertices
+  /// in plane l0 are not made either.
+  std::int32_t extract(const Slab& slab, std::int32_t l0, std::int32_t l1, std::uint64_t most_bytes,
+                       MeshChunk& chunk, TaskTotals& totals);
+  /// Makes all of layers [l0, l1).
   void extract(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
-               TaskTotals& totals);
+               TaskTotals& totals) {
+    extract(slab, l0, l1, mesh::ChunkRoom::kUnlimited, chunk, totals);
+  }
   /// Only counts.
   void count(const Slab& slab, std::int32_t l0, std::int32_t l1, TaskTotals& totals);
+  /// Counts the vertices of layers [l0, l1), and those in plane l0 only if `with_lowest`.
+  std::uint64_t count_vertices(const Slab& slab, std::int32_t l0, std::int32_t l1,
+                               bool with_lowest);
 
  private:
-  template <class T, bool Swap>
-  struct VertexPass;
   static constexpr std::int32_t kNoPlane = -1;
 
-  [[nodiscard]] std::int32_t n_planes() const { return n_layers_ + 1; }
-  /// Planes that gradients look at beyond those of a layer: their bits are made that much earlier.
-  [[nodiscard]] std::int32_t reach() const { return options_.normals == Normals::gradient ? 1 : 0; }
   PlaneBits& bits(std::int32_t plane) { return planes_[static_cast<std::size_t>(plane) % 3]; }
-  [[nodiscard]] const PlaneBits& bits(std::int32_t plane) const {
-    return planes_[static_cast<std::size_t>(plane) % 3];
+  BitPlane view(std::int32_t plane) { return grid_.classifier.view(bits(plane)); }
+  [[nodiscard]] bool owns(std::int32_t plane, std::int32_t l1) const {
+    return plane < l1 || l1 == grid_.n_layers;
   }
-  void load(const Slab& slab, std::int32_t plane, bool is_shared);
-  [[nodiscard]] std::uint64_t border_sides(std::int32_t layer) const;
+  void shape();
+  void load(const Slab& slab, std::int32_t plane, SharedPlanes* shared);
 
   template <class Pass>
-  std::uint32_t write_plane(std::int32_t plane, std::uint32_t next, Pass& pass);
+  std::uint32_t write_plane_of(std::int32_t plane, std::uint32_t next, Pass& pass);
   template <class Pass>
-  std::uint32_t write_between(std::int32_t layer, const Slab& slab, std::int32_t coming,
-                              std::uint32_t next, Pass& pass);
-  void emit_layer(std::int32_t layer, MeshChunk& chunk);
-  template <class Vertices>
-  [[nodiscard]] LayerSum measure(std::int32_t layer, const Vertices& vertices) const;
+  std::uint32_t write_above(std::int32_t layer, const Slab& slab, std::int32_t coming,
+                            std::uint32_t next, Pass& pass);
+  template <class Pass>
+  void emit_layer(std::int32_t layer, mesh::ChunkRoom& room, Pass& pass);
+  template <class Pass>
+  std::uint32_t make_layer(const Slab& slab, std::int32_t layer, std::int32_t l1,
+                           std::uint32_t next, mesh::ChunkRoom& room, Pass& pass);
   template <class T, bool Swap>
-  void extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
-                     TaskTotals& totals);
+  std::int32_t extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1,
+                             mesh::ChunkRoom& room, TaskTotals& totals);
 
-  std::string name_;
-  Affine to_world_;
-  ExtractOptions options_;
-  Placement placement_;
-  PlaneClassifier classifier_;
-  Vec3 apex_;  ///< volumes are summed from here, in lattice units
-  std::int32_t n_layers_ = 0;
+  DenseGrid grid_;
   SharedPlanes* shared_ = nullptr;
   std::array<PlaneBits, 3> planes_;
   std::vector<std::uint32_t> k_start_;
-  std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
+  EdgeBatches batches_;
 };
 
 }  // namespace mc::extraction

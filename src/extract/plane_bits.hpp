@@ -23,6 +23,7 @@ struct PlaneBits {
   std::vector<std::uint32_t> i_start, j_start;           ///< first ids of the rows
 
   [[nodiscard]] PlaneIds ids() { return {i_start.data(), j_start.data()}; }
+  [[nodiscard]] RowIds row_ids() const { return {i_start.data(), j_start.data()}; }
 };
 
 /// The shape of planes, and how they are made.

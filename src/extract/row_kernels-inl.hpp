@@ -82,7 +82,7 @@ class EdgeLister {
 std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, std::uint32_t& next,
                        const PlaneIds& ids, EdgeList& list) {
   EdgeLister lister(list);
-  for (; j < j_end && lister.has_room(list_room(plane)); ++j) {
+  for (; j < j_end && lister.has_room(list_room(plane.n_samples)); ++j) {
     ids.i[j] = next + lister.n();
     lister.row(AlongRow{plane.row(j), plane.cells}, plane.words_per_row, j, 0);
     ids.j[j] = next + lister.n();
@@ -99,7 +99,7 @@ std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size
                          std::size_t j_end, std::uint32_t& next, std::uint32_t* k_ids,
                          EdgeList& list) {
   EdgeLister lister(list);
-  for (; j < j_end && lister.has_room(list_room(lower)); ++j) {
+  for (; j < j_end && lister.has_room(list_room(lower.n_samples)); ++j) {
     k_ids[j] = next + lister.n();
     lister.row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row, j, 2);
   }

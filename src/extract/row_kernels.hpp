@@ -31,6 +31,12 @@ struct PlaneIds {
   std::uint32_t* j = nullptr;
 };
 
+/// The same to read.
+struct RowIds {
+  const std::uint32_t* i = nullptr;
+  const std::uint32_t* j = nullptr;
+};
+
 /// Writes the ids of a plane's rows, counting from `next`; row by row, i before j. Returns the id
 /// after the last.
 std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids);
@@ -43,11 +49,11 @@ std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::
 struct EdgeList {
   Index3 first{};  ///< indices of the plane's first sample
   std::int32_t *i = nullptr, *j = nullptr, *axis = nullptr;
-  std::size_t room = 0;  ///< at least list_room(plane); more makes calls rarer
+  std::size_t room = 0;  ///< at least list_room(); more makes calls rarer
   std::size_t n = 0;
 };
 /// Room that listing needs: two edges a sample of one row, and what is written past the end.
-inline std::size_t list_room(const BitPlane& plane) { return 2 * plane.n_samples + 8; }
+constexpr std::size_t list_room(std::size_t row_samples) { return 2 * row_samples + 8; }
 
 /// Numbers and lists i- and j-edges of rows [j, j_end) while there is room for one more row; `next`
 /// is the first id and becomes the id after the last. Returns the row after the last.
@@ -61,7 +67,7 @@ std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size
 /// One layer of cells: the planes below and above it, and the first ids of their rows.
 struct CellLayer {
   BitPlane lower, upper;
-  PlaneIds lower_ids, upper_ids;
+  RowIds lower_ids, upper_ids;
   const std::uint32_t* k_ids = nullptr;
 };
 

@@ -12,6 +12,9 @@ namespace mc::extraction {
 
 namespace {
 
+/// Ids of a block's triangles, five a cell.
+constexpr std::size_t kBlockIndices = 3 * kMaxTriangles * LeafReader::kLeafSamples;
+
 constexpr std::size_t kRingBytes = BlockSampler<double>::kScratchBytes;
 
 Index3 origin_of(const Index3& block) { return {block[0] * 8, block[1] * 8, block[2] * 8}; }
@@ -40,6 +43,13 @@ SparseExtractor::SparseExtractor(const SparsePlan& plan, const Affine& to_world)
 std::uint64_t SparseExtractor::scratch_bytes() {
   return sizeof(SparseExtractor) + kKnown * sizeof(KnownEdges) + kRingBytes +
          LeafQueue::kScratchBytes + EdgeBatch<double>::kEnough * EdgeBatch<double>::kBytesAnEdge;
+}
+
+std::uint64_t SparseExtractor::most_bytes_of(std::size_t n_blocks, const ExtractOptions& options) {
+  const std::uint64_t vertex =
+      mesh::vertex_bytes(options.precision, options.normals != Normals::none);
+  return (n_blocks * kBlockEdges + EdgeBatch<double>::kEnough + kEdgesAtOnce) * vertex +
+         (n_blocks * kBlockIndices + kBlockSlack) * sizeof(std::uint32_t);
 }
 
 const SparseExtractor::KnownEdges& SparseExtractor::edges_at(const Walk& walk, std::size_t x,
@@ -76,7 +86,7 @@ void SparseExtractor::emit_triangles(const Walk& walk, std::uint64_t base, const
     enter_ids(d, there.edges, static_cast<std::uint32_t>(first), ids_);
   }
   const std::size_t before = chunk.indices.size();
-  chunk.indices.resize(before + 15 * LeafReader::kLeafSamples + kBlockSlack);
+  chunk.indices.resize(before + kBlockIndices + kBlockSlack);
   const std::size_t written =
       emit_block(above, cells, ids_, placement_.flip, chunk.indices.data() + before);
   chunk.indices.resize(before + written);
@@ -159,8 +169,8 @@ void SparseExtractor::write_vertices(const Index3& block, bool at_border, Sample
 }
 
 template <class T>
-void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChunk& chunk,
-                                    TaskTotals& totals) {
+std::size_t SparseExtractor::extract_typed(std::size_t first, std::size_t last,
+                                           mesh::ChunkRoom& room, TaskTotals& totals) {
   using Sampler = BlockSampler<T>;
   const ExtractOptions& options = plan_.options();
   Sampler sampler(plan_.reader(), plan_.index(), plan_.box(), ring_scratch_.data());
@@ -168,7 +178,8 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
   rules.capped = plan_.capped();
   const EdgeVertices<T, Sampler> vertices(rules, sampler);
   VertexWriter<T, Sampler> writer(rules, sampler, options.precision,
-                                  std::get<EdgeBatch<Real<T>>>(batches_), chunk, totals.bounds);
+                                  std::get<EdgeBatch<Real<T>>>(batches_), room.chunk(),
+                                  totals.bounds);
   const std::uint64_t base = plan_.first_vertex(first);
   Walk walk(plan_.blocks());
   BlockSamples samples;
@@ -180,8 +191,14 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
   };
   queue_.clear();
   for (std::size_t n = 0; n < LeafQueue::kAhead; ++n) push();
-  for (std::size_t n = first; n < last; ++n) {
+  std::size_t n = first;
+  for (; n < last; ++n) {
     const Index3& block = plan_.blocks()[n].at;
+    // Vertices wait for a whole batch; a batch ends with a vector's width more.
+    if (!room.make_for_vertices(writer.n_waiting() + plan_.blocks()[n].n_vertices + kEdgesAtOnce) ||
+        !room.make_for_indices(kBlockIndices + kBlockSlack)) {
+      break;
+    }
     walk.move_to(n);
     sampler.move_to(block, queue_.pop());
     n_edges_ = list_edges(edges_at(walk, 0, 0, 0).edges, edges_.data());
@@ -190,7 +207,7 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
     if (options.normals != Normals::none) writer.flush();  // while the sampler is here
     const BlockBits above = plan_.bits_around(walk, 0, 0, 0);
     const Mask512 cells = find_cells(above, exists);
-    emit_triangles(walk, base, above, cells, chunk);
+    emit_triangles(walk, base, above, cells, room.chunk());
     if (options.region && !plan_.capped()) {
       totals.n_boundary_edges += boundary_edges(block, above, cells);
     }
@@ -208,19 +225,24 @@ void SparseExtractor::extract_typed(std::size_t first, std::size_t last, MeshChu
     push();
   }
   writer.flush();
-  totals.n_vertices = chunk.n_vertices();
-  totals.n_triangles = chunk.n_triangles();
+  return n;
 }
 
-void SparseExtractor::extract(std::size_t first, std::size_t last, MeshChunk& chunk,
-                              TaskTotals& totals) {
+std::size_t SparseExtractor::extract(std::size_t first, std::size_t last, std::uint64_t most_bytes,
+                                     MeshChunk& chunk, TaskTotals& totals) {
   chunk.clear();
   totals.clear();
   known_.resize(kKnown);
   ring_scratch_.resize(kRingBytes);
-  field::visit_type(plan_.threshold().type, [&]<class T>(field::TypeTag<T> /*tag*/) {
-    extract_typed<T>(first, last, chunk, totals);
-  });
+  const ExtractOptions& options = plan_.options();
+  mesh::ChunkRoom room(chunk, options.precision, options.normals != Normals::none, most_bytes);
+  const std::size_t end =
+      field::visit_type(plan_.threshold().type, [&]<class T>(field::TypeTag<T> /*tag*/) {
+        return extract_typed<T>(first, last, room, totals);
+      });
+  totals.n_vertices = chunk.n_vertices();
+  totals.n_triangles = chunk.n_triangles();
+  return end;
 }
 
 void SparseExtractor::count(std::size_t first, std::size_t last, TaskTotals& totals) {

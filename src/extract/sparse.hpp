@@ -14,6 +14,7 @@
 #include "extract/vertex_writer.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
+#include "mesh/chunk_room.hpp"
 
 // Flying Edges over the blocks of a sparse volume: nothing is densified. A block's samples are
 // eight words; the blocks that can hold a surface are found from the tree alone; each owns the
@@ -32,14 +33,18 @@ class SparseExtractor {
  public:
   SparseExtractor(const SparsePlan& plan, const Affine& to_world);
 
-  /// Makes blocks [first, last). Indices in `chunk` count from the run's first vertex.
-  /// Errors: limit, where a triangle spans more than 2^32 vertex ids.
-  void extract(std::size_t first, std::size_t last, MeshChunk& chunk, TaskTotals& totals);
+  /// Makes blocks from `first` up to `last`, or up to the block with which `chunk` could hold more
+  /// than `most_bytes`. Indices in `chunk` count from the run's first vertex. Returns the block
+  /// after the last. Errors: limit, where a triangle spans more than 2^32 vertex ids.
+  std::size_t extract(std::size_t first, std::size_t last, std::uint64_t most_bytes,
+                      MeshChunk& chunk, TaskTotals& totals);
   /// Only counts, from the plan's bits.
   void count(std::size_t first, std::size_t last, TaskTotals& totals);
 
   /// Bytes of scratch, for what is allocated once.
   static std::uint64_t scratch_bytes();
+  /// Bytes of chunk that so many blocks make at most.
+  static std::uint64_t most_bytes_of(std::size_t n_blocks, const ExtractOptions& options);
 
  private:
   using Walk = BlockWalk<3>;
@@ -52,7 +57,8 @@ class SparseExtractor {
   static constexpr std::size_t kKnown = 1024;  // direct-mapped: about two rows of blocks
 
   template <class T>
-  void extract_typed(std::size_t first, std::size_t last, MeshChunk& chunk, TaskTotals& totals);
+  std::size_t extract_typed(std::size_t first, std::size_t last, mesh::ChunkRoom& room,
+                            TaskTotals& totals);
   template <class Sampler, class Writer>
   void write_vertices(const Index3& block, bool at_border, Sampler& sampler, Writer& writer);
   void emit_triangles(const Walk& walk, std::uint64_t base, const BlockBits& above,

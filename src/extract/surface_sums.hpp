@@ -27,6 +27,13 @@ struct TaskTotals {
   std::vector<LayerSum> layers;  ///< only when measured
   std::uint64_t n_asked = 0, n_skipped = 0;
 
+  /// Adds what a piece of the task found; vertices have been counted.
+  void add_piece(const TaskTotals& piece) {
+    n_triangles += piece.n_triangles;
+    n_boundary_edges += piece.n_boundary_edges;
+    bounds.include(piece.bounds);
+    layers.insert(layers.end(), piece.layers.begin(), piece.layers.end());
+  }
   void clear() {
     layers.clear();
     *this = {0, 0, 0, {}, std::move(layers)};

@@ -114,6 +114,9 @@ class VertexWriter {
     }
   }
 
+  /// Edges that were added and have no vertices yet.
+  [[nodiscard]] std::size_t n_waiting() const { return batch_.n; }
+
   /// Makes the vertices of the batch's edges. Of edges that lead out, a, b and gradients are zero.
   void flush() {
     if (batch_.n == 0) return;

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "base/parallel.hpp"
 #include "extract/dense.hpp"
+#include "extract/dense_bands.hpp"
 #include "extract/threshold.hpp"
 #include "pipe/tasks.hpp"
 
-// Dense volumes: a task is a slab of cell layers.
+// Dense volumes: a task is a slab of cell layers; its pieces are bands of rows, layer by layer.
 
 namespace mc::pipe {
 
@@ -22,14 +24,16 @@ constexpr std::int32_t kMaxLayers = 64;  // more would leave threads idle at the
 constexpr std::int32_t kDearLayers = 61;  // 64 planes
 constexpr std::uint64_t kDearSlabBytes = 64U << 20U;
 constexpr int kTasksAThread = 4;
+/// Planes of a slab that lie beside those of its layers, with gradients.
+constexpr std::int32_t kSharedPlanes = 3;
 
 class DenseTasks final : public TaskList {
  public:
   DenseTasks(const SlabReader& reader, const RunOptions& options)
       : reader_(reader),
-        prototype_{{reader.volume(), options.to_world.value_or(reader.volume().lattice.to_world),
-                    options.extract},
-                   {}} {
+        grid_(reader.volume(), options.to_world.value_or(reader.volume().lattice.to_world),
+              options.extract),
+        given_layers_(options.slab_layers) {
     const Volume& volume = reader.volume();
     const IndexBox box = options.extract.region.value_or(volume.lattice.box);
     plane_samples_ = static_cast<std::uint64_t>(box.extent(0) * box.extent(1));
@@ -40,20 +44,24 @@ class DenseTasks final : public TaskList {
     plane_bytes_ = static_cast<std::uint64_t>(volume.lattice.box.extent(0)) *
                    static_cast<std::uint64_t>(volume.lattice.box.extent(1)) *
                    sample_size(volume.type);
-    layers_ = options.slab_layers > 0 ? options.slab_layers : layers_wanted();
-    layers_ = std::min({layers_, extractor().max_layers(), extractor().n_layers()});
-    vertex_bytes_ = (options.extract.precision == Precision::f64 ? 24 : 12) +
-                    (options.extract.normals == Normals::none ? 0 : 12);
+    fit(base::pipeline_slots(), std::numeric_limits<std::uint64_t>::max());
   }
 
-  void set_slots(std::size_t n_slots) override {
-    slots_.assign(n_slots, prototype_);
-    shared_.reset(2 * (n_slots + 1));
+  void fit(std::size_t n_slots, std::uint64_t bytes) override {
+    layers_ = given_layers_ > 0 ? given_layers_ : layers_wanted(bytes / n_slots);
+    layers_ = std::min({layers_, grid_.max_layers(), grid_.n_layers});
+  }
+  void set_room(const Room& room) override {
+    room_ = room;
+    slots_.assign(room.n_slots, {extraction::DenseExtractor(grid_), {}, {}});
+    shared_.reset(2 * (room.n_slots + 1));
     for (Slot& slot : slots_) slot.extractor.share(&shared_);
+    bands_.reset();
+    makers_.resize(room.n_makers);
   }
   void forget() override { shared_.forget(); }
   [[nodiscard]] std::size_t n_tasks() const override {
-    return static_cast<std::size_t>((extractor().n_layers() + layers_ - 1) / layers_);
+    return static_cast<std::size_t>((grid_.n_layers + layers_ - 1) / layers_);
   }
   [[nodiscard]] std::uint64_t samples(std::size_t n) const override {
     return plane_samples_ * static_cast<std::uint64_t>(last(n) - first(n));
@@ -64,53 +72,90 @@ class DenseTasks final : public TaskList {
   void make(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
     if (!reader_.reads_once()) read(n, s);
-    s.extractor.extract(s.slab, first(n), last(n), out.chunk, out.totals);
+    const std::int32_t end =
+        s.extractor.extract(s.slab, first(n), last(n), room_.chunk_bytes, out.chunk, out.totals);
+    out.complete = end == last(n);
+    if (!out.complete) {
+      s.rest = {end, last(n), end == first(n)};
+      out.totals.n_vertices +=
+          s.extractor.count_vertices(s.slab, s.rest.first, s.rest.last, s.rest.with_lowest);
+    }
     out.totals.n_asked = plane_samples_ * s.slab.planes.size();
     out.totals.n_skipped = s.slab.sides.n_left_out();
+  }
+  std::size_t next_pieces(std::size_t slot) override {
+    Rest& rest = slots_[slot].rest;
+    if (!bands_) bands_.emplace(grid_);
+    if (!rest.begun) {
+      rest.begun = true;
+      bands_->start(slots_[slot].slab, rest.first, rest.last, rest.with_lowest, room_.piece_bytes);
+    }
+    return bands_->next();
+  }
+  void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) override {
+    bands_->make(piece, makers_[maker], out.chunk, out.totals);
   }
   void count(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
     read(n, s);
     s.extractor.count(s.slab, first(n), last(n), out.totals);
   }
-  [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots) const override {
+  [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots, std::size_t n_makers) const override {
     const std::uint64_t slab =
-        reader_.rereads_cheaply() ? 0 : plane_bytes_ * static_cast<std::uint64_t>(layers_ + 3);
-    return n_slots * (extractor().scratch_bytes() + slab);
+        reader_.rereads_cheaply()
+            ? 0
+            : plane_bytes_ * static_cast<std::uint64_t>(layers_ + kSharedPlanes);
+    return n_slots * (extraction::DenseExtractor::scratch_bytes(grid_) + slab) +
+           extraction::DenseBands::scratch_bytes(grid_, n_makers);
   }
-  [[nodiscard]] std::uint64_t chunk_bytes() const override {
+  [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
+    return extraction::DenseBands::least_bytes(grid_);
+  }
+  [[nodiscard]] std::uint64_t smooth_chunk_bytes() const override {
     // A flat surface through the slab: about a vertex and two triangles a column, twice over.
-    return 2 * plane_samples_ * (vertex_bytes_ + 24);
+    const ExtractOptions& o = grid_.options;
+    return 2 * plane_samples_ *
+           (mesh::vertex_bytes(o.precision, o.normals != Normals::none) + 2 * mesh::kTriangleBytes);
   }
 
  private:
+  /// Layers whose surface a task's chunk could not hold.
+  struct Rest {
+    std::int32_t first = 0, last = 0;
+    bool with_lowest = false;
+    bool begun = false;
+  };
   struct Slot {
     extraction::DenseExtractor extractor;
     Slab slab;
+    Rest rest;
   };
 
-  [[nodiscard]] const extraction::DenseExtractor& extractor() const { return prototype_.extractor; }
   [[nodiscard]] std::int32_t first(std::size_t n) const {
     return static_cast<std::int32_t>(n) * layers_;
   }
   [[nodiscard]] std::int32_t last(std::size_t n) const {
-    return std::min(extractor().n_layers() - first(n), layers_) + first(n);
+    return std::min(grid_.n_layers - first(n), layers_) + first(n);
   }
-  [[nodiscard]] std::int32_t layers_wanted() const {
+  /// Layers of one task, whose planes are to take no more than `bytes` where they are copied.
+  [[nodiscard]] std::int32_t layers_wanted(std::uint64_t bytes) const {
     const auto within = [](std::uint64_t v, std::int32_t lo, std::int32_t hi) {
       return static_cast<std::int32_t>(
           std::clamp<std::uint64_t>(v, std::uint64_t(lo), std::uint64_t(hi)));
     };
     const std::int32_t cached = within(kSlabSamples / plane_samples_, kMinLayers, kMaxLayers);
-    if (reader_.rereads_cheaply() || reader_.reads_once()) return cached;
+    if (reader_.rereads_cheaply()) return cached;
+    const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + kSharedPlanes);
+    const std::int32_t most = std::max(planes - kSharedPlanes, 1);
+    if (reader_.reads_once()) return std::min(cached, most);
     const auto n_parts = static_cast<std::uint64_t>(kTasksAThread * base::thread_count());
-    const auto share = static_cast<std::uint64_t>(extractor().n_layers()) / n_parts;
+    const auto share = static_cast<std::uint64_t>(grid_.n_layers) / n_parts;
     const std::int32_t dear =
         within(std::min(kDearSlabBytes / plane_bytes_, share), kMinLayers, kDearLayers);
-    return std::max(cached, dear);
+    return std::min(std::max(cached, dear), most);
   }
   void read(std::size_t n, Slot& s) const {
-    const auto [k0, k1] = s.extractor.planes_for(first(n), last(n));
+    const auto [k0, k1] = grid_.planes_for(first(n), last(n));
     if (query_) {
       reader_.read_surface(k0, k1, *query_, s.slab);
     } else {
@@ -119,14 +164,17 @@ class DenseTasks final : public TaskList {
   }
 
   const SlabReader& reader_;
-  Slot prototype_;
+  extraction::DenseGrid grid_;
+  std::int32_t given_layers_;
+  Room room_;
   std::vector<Slot> slots_;
   extraction::SharedPlanes shared_;
+  std::optional<extraction::DenseBands> bands_;  ///< made when first needed
+  std::vector<extraction::DenseBands::Maker> makers_;
   std::optional<SurfaceQuery> query_;  ///< unset: all samples are read
   std::int32_t layers_ = 1;
   std::uint64_t plane_samples_ = 0;
   std::uint64_t plane_bytes_ = 0;
-  std::uint64_t vertex_bytes_ = 0;
 };
 
 }  // namespace

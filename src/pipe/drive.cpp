@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pipe/drive.hpp"
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -47,11 +48,14 @@ class Sum {
     }
     return out;
   }
-  [[nodiscard]] std::uint64_t n_vertices() const { return totals_.n_vertices; }
 
  private:
   MeshTotals totals_;
 };
+
+bool has_chunk(const TaskResult& result) {
+  return result.chunk.n_vertices() != 0 || result.chunk.n_triangles() != 0;
+}
 
 Error no_surface() { return {ErrorKind::empty, {}, "no surface at this iso"}; }
 
@@ -60,12 +64,14 @@ Error no_surface() { return {ErrorKind::empty, {}, "no surface at this iso"}; }
 /// One run. Its steps are small enough for a std::function to hold without memory of its own.
 struct Drive::Work {
   TaskList& tasks;
-  std::span<TaskResult> results;
+  std::span<TaskResult> results;  ///< of tasks
+  std::span<TaskResult> pieces;
   MeshSink& sink;
   Progress& progress;
   const std::stop_token& stop;
   MeshObject object;
   Sum sum;
+  std::uint64_t n_numbered = 0;  ///< vertices of tasks that have their ids
   bool begun = false;
 
   void count(bool allow_empty);
@@ -76,7 +82,9 @@ struct Drive::Work {
   void look_at_stop() const;
   void begin_object_once();
   void number(std::size_t slot);
-  [[nodiscard]] bool has_chunk(std::size_t slot) const;
+  void place(std::size_t slot);
+  void complete(std::size_t slot);
+  void make_pieces(std::size_t n, std::uint64_t first_vertex, TaskResult& task);
 };
 
 std::uint64_t Drive::Work::n_samples() const {
@@ -95,23 +103,59 @@ void Drive::Work::look_at_stop() const {
 
 void Drive::Work::begin_object_once() {
   if (!begun) {
-    sink.set_slots(results.size());
+    sink.set_slots(results.size() + pieces.size());
     sink.begin_object(object);
     begun = true;
   }
 }
 
-bool Drive::Work::has_chunk(std::size_t slot) const {
-  const MeshChunk& chunk = results[slot].chunk;
-  return chunk.n_vertices() != 0 || chunk.n_triangles() != 0;
-}
-
 void Drive::Work::number(std::size_t slot) {
-  results[slot].chunk.index_base += sum.n_vertices();
-  sum.add(results[slot].totals);
-  if (has_chunk(slot)) {
+  TaskResult& task = results[slot];
+  task.chunk.index_base += n_numbered;
+  n_numbered += task.totals.n_vertices;
+  if (has_chunk(task) || !task.complete) {
     begin_object_once();
   }
+}
+
+void Drive::Work::place(std::size_t slot) {
+  TaskResult& task = results[slot];
+  if (has_chunk(task)) sink.place(task.chunk, slot);
+  if (!task.complete) complete(slot);
+  sum.add(task.totals);
+}
+
+/// Makes the rest of a task, before which all vertices and triangles have been placed.
+void Drive::Work::complete(std::size_t slot) {
+  TaskResult& task = results[slot];
+  const std::uint64_t first_vertex = task.chunk.index_base + task.chunk.n_vertices();
+  for (std::size_t n = tasks.next_pieces(slot); n != 0; n = tasks.next_pieces(slot)) {
+    make_pieces(n, first_vertex, task);
+  }
+}
+
+/// Takes pieces through the steps of a chunk; their vertices and triangles follow what is placed.
+void Drive::Work::make_pieces(std::size_t n, std::uint64_t first_vertex, TaskResult& task) {
+  const auto sink_slot = [this](std::size_t maker) { return results.size() + maker; };
+  const std::array<base::Step, 3> steps{{
+      {false,
+       [&](std::size_t piece, std::size_t maker) {
+         look_at_stop();
+         tasks.make_piece(piece, maker, pieces[maker]);
+         pieces[maker].chunk.index_base += first_vertex;
+         if (has_chunk(pieces[maker])) sink.format(pieces[maker].chunk, sink_slot(maker));
+       }},
+      {true,
+       [&](std::size_t /*piece*/, std::size_t maker) {
+         if (has_chunk(pieces[maker])) sink.place(pieces[maker].chunk, sink_slot(maker));
+         task.totals.add_piece(pieces[maker].totals);
+       }},
+      {false,
+       [&](std::size_t /*piece*/, std::size_t maker) {
+         if (has_chunk(pieces[maker])) sink.write(pieces[maker].chunk, sink_slot(maker));
+       }},
+  }};
+  base::pipeline(n, pieces.size(), steps);
 }
 
 /// Counts tasks first, first + stride, ...
@@ -170,30 +214,32 @@ void Drive::Work::extract() {
       {true, [this](std::size_t /*n*/, std::size_t slot) { number(slot); }},
       {false,
        [this](std::size_t /*n*/, std::size_t slot) {
-         if (has_chunk(slot)) sink.format(results[slot].chunk, slot);
+         if (has_chunk(results[slot])) sink.format(results[slot].chunk, slot);
        }},
-      {true,
-       [this](std::size_t /*n*/, std::size_t slot) {
-         if (has_chunk(slot)) sink.place(results[slot].chunk, slot);
-       }},
+      {true, [this](std::size_t /*n*/, std::size_t slot) { place(slot); }},
       {false,
        [this](std::size_t n, std::size_t slot) {
          look_at_stop();
-         if (has_chunk(slot)) sink.write(results[slot].chunk, slot);
+         if (has_chunk(results[slot])) sink.write(results[slot].chunk, slot);
          progress.advance(tasks.samples(n));
        }},
   }};
   base::pipeline(tasks.n_tasks(), results.size(), steps);
 }
 
-MeshTotals Drive::run(TaskList& tasks, std::size_t n_slots, const RunOptions& options,
+MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& options,
                       bool allow_empty, MeshSink& sink, Progress& progress,
                       const std::stop_token& stop) {
-  if (results_.size() < n_slots) {
-    results_.resize(n_slots);
-  }
-  Work work{tasks,          std::span(results_).first(n_slots), sink, progress, stop,
-            options.object, Sum(options.extract.measure)};
+  results_.resize(std::max(results_.size(), room.n_slots + room.n_makers));
+  const std::span results(results_);
+  Work work{tasks,
+            results.first(room.n_slots),
+            results.subspan(room.n_slots, room.n_makers),
+            sink,
+            progress,
+            stop,
+            options.object,
+            Sum(options.extract.measure)};
   work.object.iso = options.extract.iso;
   work.object.has_normals = options.extract.normals != Normals::none;
   work.object.precision = options.extract.precision;

@@ -10,14 +10,16 @@
 
 // The tasks of one extraction, made on all threads, and their chunks' way into the sink:
 // fetched, in order -> made -> numbered, in order -> formatted -> placed, in order -> written.
+// A task that its chunk could not hold is completed when it is placed: piece by piece, on all
+// threads again.
 
 namespace mc::pipe {
 
 /// Holds the chunks on their way, whose memory is used again from run to run.
 class Drive {
  public:
-  /// Runs all tasks, whose slots have been set to `n_slots`; as mc::run().
-  MeshTotals run(TaskList& tasks, std::size_t n_slots, const RunOptions& options, bool allow_empty,
+  /// Runs all tasks, which have been set to this room; as mc::run().
+  MeshTotals run(TaskList& tasks, const Room& room, const RunOptions& options, bool allow_empty,
                  MeshSink& sink, Progress& progress, const std::stop_token& stop);
 
  private:

@@ -7,6 +7,7 @@
 #include "field/visit_type.hpp"
 #include "mc/extract.hpp"
 #include "mc/pipe.hpp"
+#include "mesh/chunk_room.hpp"
 #include "mesh/memory_sink.hpp"
 #include "pipe/drive.hpp"
 #include "pipe/tasks.hpp"
@@ -73,7 +74,7 @@ struct Extractor::Scratch {
     Index3 dims;
     ArrayReader reader;
     std::unique_ptr<pipe::TaskList> tasks;
-    std::size_t n_slots = 0;
+    pipe::Room room{.n_slots = 0, .chunk_bytes = mesh::ChunkRoom::kUnlimited, .n_makers = 0};
   };
 
   /// The tasks for this call: those of the last one, where they fit.
@@ -88,9 +89,9 @@ struct Extractor::Scratch {
       setup.emplace(type, dims, run_options);
     }
     const std::size_t n_slots = base::pipeline_slots();
-    if (n_slots != setup->n_slots) {
-      setup->tasks->set_slots(n_slots);
-      setup->n_slots = n_slots;
+    if (n_slots != setup->room.n_slots) {
+      setup->room.n_slots = n_slots;
+      setup->tasks->set_room(setup->room);
     }
     return *setup;
   }
@@ -118,7 +119,7 @@ void Extractor::extract(View3<const T> view, const ExtractOptions& options, cons
     Scratch::Setup& setup = s.set_up(field::type_of<T>(), view.dims, taken, to_world);
     setup.reader.look_at(view);
     setup.tasks->forget();
-    s.drive.run(*setup.tasks, setup.n_slots, s.run_options, true, s.sink, silent_progress(), {});
+    s.drive.run(*setup.tasks, setup.room, s.run_options, true, s.sink, silent_progress(), {});
   } catch (...) {
     s.sink.start(mesh);  // what is there of it is no mesh
     throw;

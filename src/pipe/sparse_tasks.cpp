@@ -2,9 +2,10 @@
 #include <algorithm>
 
 #include "extract/sparse.hpp"
+#include "mesh/chunk_room.hpp"
 #include "pipe/tasks.hpp"
 
-// Sparse volumes: a task is a run of blocks.
+// Sparse volumes: a task is a run of blocks; its pieces are shorter runs.
 
 namespace mc::pipe {
 
@@ -16,14 +17,16 @@ class SparseTasks final : public TaskList {
  public:
   SparseTasks(const LeafReader& reader, const RunOptions& options)
       : plan_(reader, options.extract),
-        to_world_(options.to_world.value_or(reader.volume().lattice.to_world)),
-        vertex_bytes_((options.extract.precision == Precision::f64 ? 24 : 12) +
-                      (options.extract.normals == Normals::none ? 0 : 12)) {}
+        to_world_(options.to_world.value_or(reader.volume().lattice.to_world)) {}
 
-  void set_slots(std::size_t n_slots) override {
+  void set_room(const Room& room) override {
+    room_ = room;
     slots_.clear();
-    slots_.reserve(n_slots);
-    for (std::size_t s = 0; s < n_slots; ++s) slots_.emplace_back(plan_, to_world_);
+    slots_.reserve(room.n_slots);
+    for (std::size_t s = 0; s < room.n_slots; ++s) slots_.push_back({{plan_, to_world_}, 0, 0});
+    makers_.clear();
+    makers_.reserve(room.n_makers);
+    for (std::size_t m = 0; m < room.n_makers; ++m) makers_.emplace_back(plan_, to_world_);
   }
   [[nodiscard]] std::size_t n_tasks() const override {
     return (plan_.blocks().size() + kBlocksPerTask - 1) / kBlocksPerTask;
@@ -32,27 +35,61 @@ class SparseTasks final : public TaskList {
     return (last(n) - n * kBlocksPerTask) * LeafReader::kLeafSamples;
   }
   void make(std::size_t n, std::size_t slot, TaskResult& out) override {
-    slots_[slot].extract(n * kBlocksPerTask, last(n), out.chunk, out.totals);
+    Slot& s = slots_[slot];
+    s.last = last(n);
+    s.next =
+        s.extractor.extract(n * kBlocksPerTask, s.last, room_.chunk_bytes, out.chunk, out.totals);
+    out.complete = s.next == s.last;
+    out.totals.n_vertices += plan_.first_vertex(s.last) - plan_.first_vertex(s.next);
+  }
+  std::size_t next_pieces(std::size_t slot) override {
+    first_ = slots_[slot].next;
+    last_ = slots_[slot].last;
+    slots_[slot].next = last_;
+    return (last_ - first_ + blocks_per_piece() - 1) / blocks_per_piece();
+  }
+  void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) override {
+    const std::size_t first = first_ + piece * blocks_per_piece();
+    makers_[maker].extract(first, std::min(last_, first + blocks_per_piece()),
+                           mesh::ChunkRoom::kUnlimited, out.chunk, out.totals);
+    out.chunk.index_base = plan_.first_vertex(first) - plan_.first_vertex(first_);
   }
   void count(std::size_t n, std::size_t slot, TaskResult& out) override {
-    slots_[slot].count(n * kBlocksPerTask, last(n), out.totals);
+    slots_[slot].extractor.count(n * kBlocksPerTask, last(n), out.totals);
   }
-  [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots) const override {
-    return plan_.bytes() + n_slots * extraction::SparseExtractor::scratch_bytes();
+  [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots, std::size_t n_makers) const override {
+    return plan_.bytes() + (n_slots + n_makers) * extraction::SparseExtractor::scratch_bytes();
   }
-  [[nodiscard]] std::uint64_t chunk_bytes() const override {
-    return kBlocksPerTask * 128 * (vertex_bytes_ + 24);  // a surface across and back
+  [[nodiscard]] std::uint64_t least_chunk_bytes() const override { return piece_of(1); }
+  [[nodiscard]] std::uint64_t smooth_chunk_bytes() const override {
+    const ExtractOptions& o = plan_.options();
+    return kBlocksPerTask * 128 *  // a surface across and back
+           (mesh::vertex_bytes(o.precision, o.normals != Normals::none) + 2 * mesh::kTriangleBytes);
   }
 
  private:
+  struct Slot {
+    extraction::SparseExtractor extractor;
+    std::size_t next, last;  // blocks that its task's chunk could not hold
+  };
+
   [[nodiscard]] std::size_t last(std::size_t n) const {
     return std::min(plan_.blocks().size(), (n + 1) * kBlocksPerTask);
+  }
+  /// Bytes that a piece of so many blocks takes: a buffer that grows is there with its larger copy.
+  [[nodiscard]] std::uint64_t piece_of(std::size_t n_blocks) const {
+    return 3 * extraction::SparseExtractor::most_bytes_of(n_blocks, plan_.options());
+  }
+  [[nodiscard]] std::size_t blocks_per_piece() const {
+    return std::clamp<std::size_t>(room_.piece_bytes / piece_of(1), 1, kBlocksPerTask);
   }
 
   extraction::SparsePlan plan_;
   Affine to_world_;
-  std::uint64_t vertex_bytes_;
-  std::vector<extraction::SparseExtractor> slots_;
+  Room room_;
+  std::vector<Slot> slots_;
+  std::vector<extraction::SparseExtractor> makers_;
+  std::size_t first_ = 0, last_ = 0;  ///< blocks of the pieces that are being made
 };
 
 }  // namespace

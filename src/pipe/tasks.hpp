@@ -10,22 +10,36 @@
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
 
-// A run as the pipe sees it, dense or sparse: a list of tasks, each of which makes one chunk.
+// A run as the pipe sees it, dense or sparse: a list of tasks, each of which makes one chunk. Where
+// a task's mesh is more than its chunk may hold, the rest of it comes in pieces, which are made
+// when all before them has left the pipe: so memory is bounded whatever the samples are.
 
 namespace mc::pipe {
 
-/// What a task leaves behind, in a slot that is used again.
+/// What a task or a piece leaves behind, in a slot that is used again.
 struct TaskResult {
   MeshChunk chunk;  ///< index_base counts from this task's first vertex until the pipe moves it
-  extraction::TaskTotals totals;
+  extraction::TaskTotals totals;  ///< of the chunk; but vertices are counted of the whole task
+  bool complete = true;           ///< else pieces follow
+};
+
+/// How many things are on their way at once, and how large their chunks may grow.
+struct Room {
+  std::size_t n_slots = 1;
+  std::uint64_t chunk_bytes = 0;
+  std::size_t n_makers = 1;  ///< of pieces
+  std::uint64_t piece_bytes = 0;
 };
 
 /// The work of one extraction. make() may be called from several threads with different slots.
 class TaskList {
  public:
   virtual ~TaskList() = default;
-  /// Makes scratch for so many results at once; before make() or count().
-  virtual void set_slots(std::size_t n_slots) = 0;
+  /// Chooses the size of tasks so that what so many of them hold beside chunks keeps within `bytes`
+  /// where it can. Before all below.
+  virtual void fit(std::size_t /*n_slots*/, std::uint64_t /*bytes*/) {}
+  /// Makes scratch; before make() or count().
+  virtual void set_room(const Room& room) = 0;
   /// The samples may be others from now on: what was kept of them is void.
   virtual void forget() {}
   [[nodiscard]] virtual std::size_t n_tasks() const = 0;
@@ -34,12 +48,22 @@ class TaskList {
   /// Reads what make() will need, where that must happen in order; called so before each make().
   virtual void fetch(std::size_t /*n*/, std::size_t /*slot*/) {}
   virtual void make(std::size_t n, std::size_t slot, TaskResult& out) = 0;
+  /// Goes on with a task that is not complete, of which nothing may be in the way: prepares pieces,
+  /// one after the other in order, and returns how many; 0 when nothing is left. For one task at a
+  /// time.
+  virtual std::size_t next_pieces(std::size_t slot) = 0;
+  /// Makes one of them; in its chunk, index_base counts from the vertices that the task's own chunk
+  /// does not hold. May be called from several threads with different makers.
+  virtual void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) = 0;
   /// Only counts.
   virtual void count(std::size_t n, std::size_t slot, TaskResult& out) = 0;
-  /// Bytes that a run with so many slots holds beside chunks.
-  [[nodiscard]] virtual std::uint64_t held_bytes(std::size_t n_slots) const = 0;
+  /// Bytes that a run holds beside chunks.
+  [[nodiscard]] virtual std::uint64_t held_bytes(std::size_t n_slots,
+                                                 std::size_t n_makers) const = 0;
+  /// Bytes that chunks of tasks and pieces must be allowed.
+  [[nodiscard]] virtual std::uint64_t least_chunk_bytes() const = 0;
   /// Bytes of chunk that one task makes of a smooth surface.
-  [[nodiscard]] virtual std::uint64_t chunk_bytes() const = 0;
+  [[nodiscard]] virtual std::uint64_t smooth_chunk_bytes() const = 0;
 };
 
 std::unique_ptr<TaskList> dense_tasks(const SlabReader& reader, const RunOptions& options);

@@ -99,15 +99,18 @@ bool is_mesh_format(std::string_view format) {
 }
 
 MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f32_moves) {
-  constexpr std::uint32_t kText = 4;
   const Precision exact = f32_moves ? Precision::f64 : Precision::f32;
   if (format == "ply") {
-    return {.precision = options.precision.value_or(exact), .formatted = options.ascii ? kText : 1};
+    const Precision precision = options.precision.value_or(exact);
+    return {.precision = precision, .formatted = sink::ply_formatted(precision, options.ascii)};
   }
   if (format == "obj") {
-    return {.precision = exact, .formatted = kText};
+    return {.precision = exact, .formatted = sink::obj_formatted(exact)};
   }
-  return {.relative_origin = f32_moves && (format == "glb" || format == "gltf")};
+  if (format == "stl") {
+    return {.formatted = sink::kStlFormatted};
+  }
+  return {.relative_origin = f32_moves, .formatted = sink::kGltfFormatted};
 }
 
 bool holds_several_objects(std::string_view format) {

@@ -14,9 +14,18 @@ namespace mc::sink {
 
 static_assert(std::endian::native == std::endian::little, "every binary format here is so");
 
+/// Makes room for so many bytes, of which none are kept: memory that moves would be there twice.
+inline void make_room(Buffer<std::byte>& to, std::size_t n_bytes) {
+  if (to.capacity() < n_bytes) {
+    to = {};
+    to.reserve(n_bytes);
+  }
+}
+
 /// Fills `to` with records 0..n-1 of `stride` bytes: encode(i, at) makes one.
 template <class Encode>
 void make_records(std::size_t n, std::size_t stride, Buffer<std::byte>& to, Encode encode) {
+  make_room(to, n * stride);
   to.resize(n * stride);
   std::byte* at = to.data();
   for (std::size_t i = 0; i < n; ++i, at += stride) {
@@ -24,16 +33,21 @@ void make_records(std::size_t n, std::size_t stride, Buffer<std::byte>& to, Enco
   }
 }
 
-/// Fills `to` with lines 0..n-1 of at most `most_bytes` each: print(i, at) writes one and returns
-/// its end.
+/// How long a line can be: as print() may write it, and as it is with numbers that are met.
+struct LineBytes {
+  std::size_t most, usual;
+};
+
+/// Fills `to` with lines 0..n-1: print(i, at) writes one and returns its end.
 template <class Print>
-void make_lines(std::size_t n, std::size_t most_bytes, Buffer<std::byte>& to, Print print) {
+void make_lines(std::size_t n, const LineBytes& line, Buffer<std::byte>& to, Print print) {
   constexpr std::size_t kAtOnce = 64;  // lines for which room is made
+  make_room(to, n * line.usual + kAtOnce * line.most);
   to.resize(to.capacity());
   std::size_t size = 0;
   for (std::size_t first = 0; first < n; first += kAtOnce) {
-    if (to.size() - size < kAtOnce * most_bytes) {
-      to.resize(std::max(size + kAtOnce * most_bytes, 2 * to.size()));
+    if (to.size() - size < kAtOnce * line.most) {
+      to.resize(std::max(size + kAtOnce * line.most, 2 * to.size()));
     }
     char* const begin = reinterpret_cast<char*>(to.data());
     char* at = begin + size;

@@ -46,6 +46,10 @@ char* print_triple(char* at, const Number* xyz) {
   return print_number(at, xyz[2]);
 }
 constexpr std::size_t kMostTriple = 3 * kMostDigits + 2;
+/// Of floats: "-1.2345678e-38" thrice; of ids that fit 32 bits, and of those a little larger.
+constexpr std::size_t kFloatTriple = 3 * 15 + 2;
+constexpr std::size_t kIdTriple = 3 * 10 + 2;
+constexpr std::size_t kLargeIdDigits = 11;
 
 /// `text` with every control character made a space, so that it stays on its line.
 inline std::string on_one_line(std::string_view text) {

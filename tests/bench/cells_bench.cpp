@@ -19,6 +19,7 @@ using extraction::CellLayer;
 using extraction::EdgeList;
 using extraction::kCases;
 using extraction::PlaneIds;
+using extraction::RowIds;
 
 constexpr std::size_t kRows = kSide;
 
@@ -42,6 +43,7 @@ struct Bits {
     return {words.data(), cells.data(), extraction::padded_words(kSide), kSide, kRows};
   }
   PlaneIds ids() { return {i_ids.data(), j_ids.data()}; }
+  RowIds row_ids() const { return {i_ids.data(), j_ids.data()}; }
   [[nodiscard]] bool at(std::size_t i, std::size_t j) const {
     return (view().row(j)[i / 64] >> i % 64 & 1) != 0;
   }
@@ -140,7 +142,8 @@ struct Layer {
   }
   void count() { n_counted = extraction::count_triangles(lower.view(), upper.view()); }
   void emit() {
-    const CellLayer cells{lower.view(), upper.view(), lower.ids(), upper.ids(), k_ids.data()};
+    const CellLayer cells{lower.view(), upper.view(), lower.row_ids(), upper.row_ids(),
+                          k_ids.data()};
     n_ids = extraction::emit_triangles(cells, 0, kRows - 1, false, triangles.data());
   }
 

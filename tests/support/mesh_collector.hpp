@@ -59,6 +59,7 @@ struct How {
   std::int32_t slab_layers = 0;
   bool count_first = false;
   bool skip = true;
+  std::uint64_t chunk_bytes = 0;
 };
 
 inline Collected collect(const VolumeReader& reader, const ExtractOptions& options,
@@ -69,6 +70,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   run_options.slab_layers = how.slab_layers;
   run_options.count_first = how.count_first ? CountFirst::yes : CountFirst::no;
   run_options.skip = how.skip;
+  run_options.chunk_bytes = how.chunk_bytes;
   Collected out;
   CollectingSink sink(out);
   run(reader, run_options, true, sink, silent_progress(), {});

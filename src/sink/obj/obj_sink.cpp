@@ -21,6 +21,13 @@ namespace mc::sink {
 
 namespace {
 
+constexpr LineBytes vertex_line(Precision precision) {
+  return {kMostTriple + 3, (precision == Precision::f64 ? kMostTriple : kFloatTriple) + 3};
+}
+constexpr LineBytes kNormalLine{kMostTriple + 4, kFloatTriple + 4};
+constexpr LineBytes kFaceLine{2 + 3 * (1 + kMostDigits + 2 + kMostDigits),
+                              2 + 3 * (1 + kLargeIdDigits + 2 + kLargeIdDigits)};
+
 class ObjSink final : public MeshSink {
  public:
   ObjSink(const std::string& path, const SinkOptions& options)
@@ -71,18 +78,19 @@ void ObjSink::begin_object(const MeshObject& object) {
 }
 
 void ObjSink::print_vertices(const MeshChunk& chunk, Piece& piece) const {
-  make_lines(chunk.n_vertices(), kMostTriple + 3, piece.made, [&](std::size_t i, char* at) {
-    at = print_text(at, "v ");
-    at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
-                                             : print_triple(at, &chunk.positions[3 * i]);
-    *at++ = '\n';
-    return at;
-  });
+  make_lines(
+      chunk.n_vertices(), vertex_line(object_.precision), piece.made, [&](std::size_t i, char* at) {
+        at = print_text(at, "v ");
+        at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
+                                                 : print_triple(at, &chunk.positions[3 * i]);
+        *at++ = '\n';
+        return at;
+      });
   piece.take_made();
 }
 
 void ObjSink::print_normals(const MeshChunk& chunk, Piece& piece) const {
-  make_lines(chunk.normals.size() / 3, kMostTriple + 4, piece.made, [&](std::size_t i, char* at) {
+  make_lines(chunk.normals.size() / 3, kNormalLine, piece.made, [&](std::size_t i, char* at) {
     at = print_triple(print_text(at, "vn "), &chunk.normals[3 * i]);
     *at++ = '\n';
     return at;
@@ -91,9 +99,8 @@ void ObjSink::print_normals(const MeshChunk& chunk, Piece& piece) const {
 }
 
 void ObjSink::print_faces(const MeshChunk& chunk, Piece& piece) const {
-  constexpr std::size_t kMostFace = 2 + 3 * (1 + kMostDigits + 2 + kMostDigits);
   const bool one_id = object_.has_normals && first_normal_ == first_vertex_;
-  make_lines(chunk.n_triangles(), kMostFace, piece.made, [&](std::size_t i, char* at) {
+  make_lines(chunk.n_triangles(), kFaceLine, piece.made, [&](std::size_t i, char* at) {
     *at++ = 'f';
     for (std::size_t c = 0; c < 3; ++c) {
       const std::uint64_t id = chunk.index_base + chunk.indices[3 * i + c];
@@ -149,6 +156,11 @@ void ObjSink::end_object(const MeshTotals& /*totals*/) {
 }
 
 }  // namespace
+
+Formatted obj_formatted(Precision precision) {
+  return {static_cast<std::uint32_t>(vertex_line(precision).usual + kNormalLine.usual),
+          static_cast<std::uint32_t>(kFaceLine.usual)};
+}
 
 std::unique_ptr<MeshSink> open_obj(const std::string& path, const SinkOptions& options) {
   return std::make_unique<ObjSink>(path, options);

@@ -8,6 +8,9 @@
 
 namespace mc::sink {
 
+/// What is made of a chunk's vertices and triangles.
+Formatted obj_formatted(Precision precision);
+
 /// Wavefront OBJ, always text. Errors: output.
 std::unique_ptr<MeshSink> open_obj(const std::string& path, const SinkOptions& options);
 

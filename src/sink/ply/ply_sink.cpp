@@ -24,7 +24,20 @@ constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;     // of a `uin
 constexpr std::uint64_t kMostIntVertices = std::uint64_t{1} << 31;  // of an `int` index
 constexpr std::size_t kFaceBytes = 13;                              // uchar 3, three indices
 
+constexpr std::size_t kNormalBytes = 12;
+
 using Ids = std::array<std::uint32_t, 3>;
+
+/// Of the text form, with normals.
+constexpr LineBytes vertex_line(Precision precision) {
+  return {2 * kMostTriple + 2,
+          (precision == Precision::f64 ? kMostTriple : kFloatTriple) + kFloatTriple + 2};
+}
+constexpr LineBytes kFaceLine{kMostTriple + 3, kIdTriple + 3};
+
+constexpr std::size_t position_bytes(Precision precision) {
+  return precision == Precision::f64 ? 24 : 12;
+}
 
 class PlySink final : public MeshSink {
  public:
@@ -64,8 +77,7 @@ class PlySink final : public MeshSink {
 };
 
 std::size_t PlySink::vertex_bytes() const {
-  const std::size_t coordinate = object_.precision == Precision::f64 ? 8 : 4;
-  return 3 * coordinate + (object_.has_normals ? 12 : 0);
+  return position_bytes(object_.precision) + (object_.has_normals ? kNormalBytes : 0);
 }
 
 void PlySink::check_vertices(std::uint64_t n) const {
@@ -128,7 +140,7 @@ void PlySink::begin_object(const MeshObject& object) {
 }
 
 void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const {
-  make_lines(chunk.n_vertices(), 2 * kMostTriple + 2, to, [&](std::size_t i, char* at) {
+  make_lines(chunk.n_vertices(), vertex_line(object_.precision), to, [&](std::size_t i, char* at) {
     at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
                                              : print_triple(at, &chunk.positions[3 * i]);
     if (object_.has_normals) {
@@ -162,7 +174,7 @@ void PlySink::make_face_piece(const MeshChunk& chunk, Piece& piece) const {
     return Ids{base + id[0], base + id[1], base + id[2]};
   };
   if (options_.ascii) {
-    make_lines(chunk.n_triangles(), kMostTriple + 3, piece.made, [&](std::size_t i, char* at) {
+    make_lines(chunk.n_triangles(), kFaceLine, piece.made, [&](std::size_t i, char* at) {
       const Ids three = ids(i);
       const std::array<std::uint64_t, 3> wide{three[0], three[1], three[2]};
       at = print_triple(print_text(at, "3 "), wide.data());
@@ -221,6 +233,14 @@ void PlySink::finish() {
 }
 
 }  // namespace
+
+Formatted ply_formatted(Precision precision, bool ascii) {
+  if (ascii) {
+    return {static_cast<std::uint32_t>(vertex_line(precision).usual),
+            static_cast<std::uint32_t>(kFaceLine.usual)};
+  }
+  return {static_cast<std::uint32_t>(position_bytes(precision) + kNormalBytes), kFaceBytes};
+}
 
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options) {
   return std::make_unique<PlySink>(path, options);

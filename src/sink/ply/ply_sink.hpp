@@ -8,6 +8,9 @@
 
 namespace mc::sink {
 
+/// What is made of a chunk's vertices and triangles.
+Formatted ply_formatted(Precision precision, bool ascii);
+
 /// PLY, binary little endian or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options);
 

@@ -82,8 +82,8 @@ void encode_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::b
 }
 
 void print_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::byte>& to) {
-  constexpr std::size_t kMostFacet = 100 + 4 * kMostTriple;
-  make_lines(ids.size(), kMostFacet, to, [&](std::size_t i, char* at) {
+  constexpr LineBytes kFacet{100 + 4 * kMostTriple, 100 + 4 * kFloatTriple};
+  make_lines(ids.size(), kFacet, to, [&](std::size_t i, char* at) {
     const Facet corner = joined.facet(ids[i]);
     at = print_triple(print_text(at, "facet normal "), facet_normal(corner).data());
     at = print_text(at, "\n outer loop\n");
@@ -206,6 +206,7 @@ void StlSink::write_facets() {
     Buffer<Ids> ids;
     Buffer<std::byte> facets;
   };
+  slots_ = {};  // chunks are over
   std::vector<Block> blocks(base::pipeline_slots());
   const FileWriter& triangles = triangle_spool_->writer();
   const auto make = [&](std::size_t item, std::size_t slot) {

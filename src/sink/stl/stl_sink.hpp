@@ -8,6 +8,9 @@
 
 namespace mc::sink {
 
+/// What is made of a chunk: positions as floats, ids of the whole mesh.
+inline constexpr Formatted kStlFormatted{.vertex_bytes = 12, .triangle_bytes = 12};
+
 /// STL, binary or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options);
 

@@ -44,8 +44,8 @@ TEST(Run, NeedsMemoryForWhatTheSinkMakes) {
   const VolumeReader reader = sheets(1);
   RunOptions options;
   const std::uint64_t plain = memory_needed(reader, options);
-  options.formatted = 4;
-  EXPECT_GT(memory_needed(reader, options), 2 * plain);
+  options.formatted = {.vertex_bytes = 4 * 24, .triangle_bytes = 4 * 12};
+  EXPECT_GT(memory_needed(reader, options), plain);
 }
 
 }  // namespace

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+
+#include "extract/dense_grid.hpp"
+#include "extract/slab_sampler.hpp"
+#include "extract/vertex_writer.hpp"
+#include "mesh/chunk_room.hpp"
+
+// From listed edges of dense planes to vertices in a chunk.
+
+namespace mc::extraction {
+
+/// Edges waiting for their vertices, for either kind of arithmetic. Scratch: keeps its memory.
+using EdgeBatches = std::tuple<EdgeBatch<float>, EdgeBatch<double>>;
+
+/// Bytes of it for one volume.
+inline std::uint64_t edge_batch_bytes(const DenseGrid& grid) {
+  return (list_room(grid.classifier.row_samples()) + EdgeBatch<double>::kEnough) *
+         EdgeBatch<double>::kBytesAnEdge;
+}
+
+/// Makes vertices of one slab until the chunk is full.
+template <class T, bool Swap>
+class VertexPass {
+ public:
+  using R = Real<T>;
+  using Sampler = SlabSampler<T, Swap>;
+
+  VertexPass(const DenseGrid& grid, const Slab& slab, EdgeBatches& batches, mesh::ChunkRoom& room,
+             Bounds& bounds)
+      : rules_(grid.options, grid.to_world, grid.classifier.threshold()),
+        sampler_(slab, grid.classifier.box()),
+        vertices_(rules_, sampler_),
+        batch_(std::get<EdgeBatch<R>>(batches)),
+        room_(room),
+        writer_(rules_, sampler_, grid.options.precision, batch_, room.chunk(), bounds),
+        gatherer_(slab, sampler_, vertices_, writer_.wants_gradients()) {
+    list.room = list_room(grid.classifier.row_samples()) + EdgeBatch<R>::kEnough;
+    batch_.reserve(list.room, writer_.wants_gradients());
+    list.first = grid.classifier.first_of(0);
+    list.i = batch_.i.data();
+    list.j = batch_.j.data();
+    list.axis = batch_.axis.data();
+  }
+
+  [[nodiscard]] const EdgeVertices<T, Sampler>& vertices() const { return vertices_; }
+  [[nodiscard]] bool full() const { return full_; }
+  void set_full() { full_ = true; }
+
+  /// Makes the vertices of the edges that were listed, which start in plane k of the lattice. Makes
+  /// none once the chunk is full.
+  void make(std::int32_t k) {
+    batch_.n = list.n;
+    if (batch_.n == 0) return;
+    full_ = full_ || !room_.make_for_vertices(batch_.n + kEdgesAtOnce);
+    if (full_) return;
+    std::fill_n(batch_.k.begin(), batch_.n, k);
+    gatherer_.gather(batch_, k, rules_.capped);
+    writer_.flush();
+  }
+
+  EdgeList list;
+
+ private:
+  VertexRules<T> rules_;
+  Sampler sampler_;
+  EdgeVertices<T, Sampler> vertices_;
+  EdgeBatch<R>& batch_;
+  mesh::ChunkRoom& room_;
+  VertexWriter<T, Sampler> writer_;
+  SlabGatherer<T, Swap> gatherer_;
+  bool full_ = false;
+};
+
+/// Makes the vertices on the edges of rows [j, j_end) of a plane, in the order of their ids, and
+/// numbers them from `next` on. Returns the id after the last.
+template <class Pass>
+std::uint32_t write_plane(const BitPlane& plane, std::int32_t k, std::size_t j, std::size_t j_end,
+                          std::uint32_t next, const PlaneIds& ids, Pass& pass) {
+  while (j < j_end && !pass.full()) {
+    j = list_plane(plane, j, j_end, next, ids, pass.list);
+    pass.make(k);
+  }
+  return next;
+}
+
+/// The same for the edges between two planes, which start in plane k.
+template <class Pass>
+std::uint32_t write_between(const BitPlane& lower, const BitPlane& upper, std::int32_t k,
+                            std::size_t j, std::size_t j_end, std::uint32_t next,
+                            std::uint32_t* k_ids, Pass& pass) {
+  while (j < j_end && !pass.full()) {
+    j = list_between(lower, upper, j, j_end, next, k_ids, pass.list);
+    pass.make(k);
+  }
+  return next;
+}
+
+}  // namespace mc::extraction

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "pipe/room.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "base/parallel.hpp"
+#include "mesh/chunk_room.hpp"
+
+namespace mc::pipe {
+
+namespace {
+
+/// What the program holds before it starts, stacks and small things besides: measured, and as much
+/// again.
+constexpr std::uint64_t kProgramBytes = 12U << 20U;
+
+/// Larger pieces are no faster.
+constexpr std::uint64_t kMostPieceBytes = 8U << 20U;
+/// Part of the memory that one piece takes where it is scarce.
+constexpr std::uint64_t kPieceShare = 64;
+/// Chunks that are smaller than so many pieces are not worth a thread.
+constexpr std::uint64_t kPiecesAChunk = 2;
+
+/// How a chunk and what the sink makes of it divide their memory.
+class Shares {
+ public:
+  explicit Shares(const RunOptions& o)
+      : vertex_(mesh::vertex_bytes(o.extract.precision, o.extract.normals != Normals::none)),
+        made_vertex_(o.formatted.vertex_bytes),
+        made_triangle_(o.formatted.triangle_bytes) {}
+
+  /// A chunk of so many bytes with what is made of it, whether it is all vertices or all triangles.
+  [[nodiscard]] std::uint64_t with_made(std::uint64_t chunk_bytes) const {
+    return chunk_bytes + std::max(scaled(chunk_bytes, made_vertex_, vertex_),
+                                  scaled(chunk_bytes, made_triangle_, mesh::kTriangleBytes));
+  }
+  /// The largest chunk for which that is at most `bytes`.
+  [[nodiscard]] std::uint64_t chunk_of(std::uint64_t bytes) const {
+    return std::min(scaled(bytes, vertex_, vertex_ + made_vertex_),
+                    scaled(bytes, mesh::kTriangleBytes, mesh::kTriangleBytes + made_triangle_));
+  }
+
+ private:
+  static std::uint64_t scaled(std::uint64_t bytes, std::uint64_t by, std::uint64_t part) {
+    return bytes / part * by + bytes % part * by / part;
+  }
+  std::uint64_t vertex_, made_vertex_, made_triangle_;
+};
+
+std::uint64_t piece_bytes(const TaskList& tasks, const RunOptions& options) {
+  return std::max(std::min(options.memory_bytes / kPieceShare, kMostPieceBytes),
+                  tasks.least_chunk_bytes());
+}
+
+/// The room of so many tasks at once, whose chunks get what is left; of no bytes where there is
+/// none.
+Room room_of(TaskList& tasks, std::size_t n_slots, const RunOptions& options) {
+  const Shares shares(options);
+  Room room{n_slots, 0, n_slots, piece_bytes(tasks, options)};
+  const std::uint64_t fixed = kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
+                              room.n_makers * shares.with_made(room.piece_bytes);
+  if (fixed < options.memory_bytes) {
+    room.chunk_bytes = shares.chunk_of((options.memory_bytes - fixed) / n_slots);
+  }
+  return room;
+}
+
+std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
+  tasks.fit(1, 0);
+  const std::uint64_t chunk = tasks.least_chunk_bytes();
+  return bytes_of(tasks, {1, chunk, 1, chunk}, options);
+}
+
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+}
+std::string allowed(std::uint64_t bytes) {
+  return bytes < 1U << 20U ? std::to_string(bytes >> 10U) + " KiB"
+                           : std::to_string(bytes >> 20U) + " MiB";
+}
+
+}  // namespace
+
+std::uint64_t bytes_of(const TaskList& tasks, const Room& room, const RunOptions& options) {
+  const Shares shares(options);
+  return kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
+         room.n_slots * shares.with_made(room.chunk_bytes) +
+         room.n_makers * shares.with_made(room.piece_bytes);
+}
+
+Room room_within(TaskList& tasks, const RunOptions& options) {
+  if (options.chunk_bytes != 0) {
+    const std::size_t n_slots = base::pipeline_slots();
+    tasks.fit(n_slots, options.memory_bytes);
+    return {n_slots, options.chunk_bytes, n_slots,
+            std::max(options.chunk_bytes, tasks.least_chunk_bytes())};
+  }
+  for (std::size_t n_slots = base::pipeline_slots(); n_slots > 0; n_slots /= 2) {
+    tasks.fit(n_slots, options.memory_bytes / 2);
+    const Room room = room_of(tasks, n_slots, options);
+    if (room.chunk_bytes >= kPiecesAChunk * room.piece_bytes) return room;
+  }
+  const std::uint64_t least = least_bytes(tasks, options);
+  if (options.memory_bytes < least) {
+    throw Error(ErrorKind::limit, "--memory",
+                "this run needs at least " + mebibytes(least) + ", but only " +
+                    allowed(options.memory_bytes) + " are allowed",
+                "raise --memory or extract in parts with --region");
+  }
+  Room room{1, 0, 1, tasks.least_chunk_bytes()};
+  room.chunk_bytes = room.piece_bytes;
+  return room;
+}
+
+}  // namespace mc::pipe

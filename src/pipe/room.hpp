@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "pipe/tasks.hpp"
+
+// A run's budget, dealt out: to what the tasks hold, to their chunks, and to what the sink makes of
+// these.
+
+namespace mc::pipe {
+
+/// Fits tasks into the memory that `options` allow, with as many on their way as there is room for.
+/// Errors   limit: not even one at a time; the message names the least budget.
+Room room_within(TaskList& tasks, const RunOptions& options);
+
+/// Bytes that a run of so much room holds at most, what the program holds anyway included.
+std::uint64_t bytes_of(const TaskList& tasks, const Room& room, const RunOptions& options);
+
+}  // namespace mc::pipe
