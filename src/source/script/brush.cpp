@@ -92,6 +92,7 @@ void fill_cone(const JsonDocument& document, ObjectReader& keys, BrushShape& sha
 
 void fill_node(const JsonDocument& document, ScriptContext& context, ObjectReader& keys,
                BrushShape& shape) {
+  shape.radius = keys.number("radius", 0, kLengthOrZero);
   const JsonValue* field = keys.required("field");
   if (field != nullptr) shape.field = read_node(document, context, *field);
   shape.bounds = {Vec3{-1, -1, -1}, Vec3{1, 1, 1}};
@@ -128,7 +129,7 @@ const std::vector<std::string>& shape_names() {
 
 const std::vector<std::string>& falloff_names() {
   static const std::vector<std::string> kNames{"hard",      "linear", "smoothstep", "smootherstep",
-                                               "spherical", "tip",    "curve"};
+                                               "spherical", "tip",    "curve",      "none"};
   return kNames;
 }
 
@@ -231,6 +232,7 @@ BrushShape read_shape(const JsonDocument& document, ScriptContext& context, cons
       break;
     case ShapeType::plane:
       shape.normal = read_direction(document, own, "normal");
+      shape.radius = own.number("radius", 0, kLengthOrZero);
       break;
     default:
       fill_node(document, context, own, shape);
@@ -259,7 +261,7 @@ Falloff read_falloff(const JsonDocument& document, const JsonValue& value) {
   const std::string what = "a falloff of type " + in_quotes(type->text);
   ObjectReader own(document, value, what.c_str());
   own.optional("type");
-  if (falloff.type != FalloffType::hard) {
+  if (falloff.type != FalloffType::none && falloff.type != FalloffType::hard) {
     constexpr NumberRange kInner{0, 0.9999999999999999, false, "a number from 0 to below 1"};
     falloff.inner = own.number("inner", 0, kInner);
   }

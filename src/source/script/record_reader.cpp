@@ -36,7 +36,7 @@ const std::vector<RecordReader::Rule>& RecordReader::rules() {
       {"inflate", RecordKind::edit, inflate, Amount::signed_value, true, true},
       {"noise", RecordKind::edit, noise, Amount::signed_value, true, true},
       {"revert", RecordKind::edit, revert, Amount::part, true, true},
-      {"stamp", RecordKind::edit, stamp, Amount::value, false, true, true},
+      {"stamp", RecordKind::edit, stamp, Amount::value, true, true, true},
       {"paint", RecordKind::edit, paint, Amount::none, true, true},
       {"group", RecordKind::group},
       {"undo", RecordKind::undo},
@@ -152,7 +152,8 @@ void RecordReader::fill_edit(ScriptRecord& record, ObjectReader& keys, const Rul
   Edit& edit = record.edit;
   edit.op = rule.op;
   edit.clamp = context_.header.clamp;
-  // What is cut sharply by default: only a brush that adds up is soft.
+  // Only a brush that adds up is soft by default; the others are sharp, and reach as far as they
+  // do.
   edit.falloff.type = FalloffType::none;
   if (rule.blend) fill_blend(edit, keys);
   if (rule.brush) fill_brush(edit, keys);
@@ -182,23 +183,27 @@ void RecordReader::fill_edit(ScriptRecord& record, ObjectReader& keys, const Rul
 
 void RecordReader::fill_brush(Edit& edit, ObjectReader& keys) {
   if (const JsonValue* path = keys.optional("path")) edit.path = read_path(document_, *path);
-  const JsonValue* shape = keys.required("shape");
+  // A stamp is a shape itself; where it has one as well, that bounds it.
+  const bool may_lack = edit.op == EditOp::stamp && !edit.path;
+  const JsonValue* shape = may_lack ? keys.optional("shape") : keys.required("shape");
   const bool on_path = keys.value().find("path") != nullptr;
   if (shape != nullptr) edit.shape = read_shape(document_, context_, *shape, on_path);
-  const ShapeType type = edit.shape.type;
-  if (edit.path && type == ShapeType::plane) {
-    document_.fault(*shape, "is a plane, which has no radius to follow a path by");
+  if (edit.path && edit.path->mode == PathMode::dabs && !(path_radius(edit.shape) > 0)) {
+    document_.fault(*shape, "has no radius to space dabs by: expected a \"radius\" above 0");
+    edit.path.reset();
   }
-  if (edit.path && edit.path->mode == PathMode::sweep && type != ShapeType::sphere &&
-      type != ShapeType::capsule) {
-    document_.fault(*shape,
-                    "cannot be swept: expected a sphere or a capsule, or \"mode\": \"dabs\"");
+  if (edit.op == EditOp::stamp) {
+    edit.falloff.type = shape == nullptr ? FalloffType::none : FalloffType::hard;
+  } else if (edit.blend == Blend::accumulate && edit.op != EditOp::paint) {
+    edit.falloff.type = FalloffType::smoothstep;
   }
-  const bool soft = edit.blend == Blend::accumulate && edit.op != EditOp::paint;
-  if (soft) edit.falloff.type = FalloffType::smoothstep;
-  const bool own = edit.blend == Blend::csg;  // a default would keep csg within the shape
+  // A default would keep csg within the shape; a stamp without a shape has nothing to fall off.
+  const bool own = edit.blend == Blend::csg || shape == nullptr;
   if (const JsonValue* falloff = own ? keys.optional("falloff") : setting(keys, "falloff")) {
     edit.falloff = read_falloff(document_, *falloff);
+    if (shape == nullptr && edit.op == EditOp::stamp) {
+      document_.fault(*falloff, "has no shape to fall off in: expected a \"shape\" with it");
+    }
   }
 }
 
@@ -215,7 +220,8 @@ void RecordReader::fill_symmetry(Edit& edit, ObjectReader& keys) {
 }
 
 void RecordReader::fill_blend(Edit& edit, ObjectReader& keys) {
-  edit.blend = Blend(holder(keys, "blend").choice("blend", 0, {"accumulate", "csg"}));
+  const std::size_t usual = edit.op == EditOp::stamp ? 1 : 0;
+  edit.blend = Blend(holder(keys, "blend").choice("blend", usual, {"accumulate", "csg"}));
   if (edit.blend == Blend::csg) {
     edit.smooth = holder(keys, "smooth").number("smooth", 0, kLengthOrZero);
   } else if (const JsonValue* at = keys.optional("smooth")) {
@@ -232,24 +238,17 @@ void RecordReader::fill_amount(Edit& edit, ObjectReader& keys, Amount amount) {
   const JsonValue* strength = keys.optional("strength");
   const JsonValue* rate = keys.optional("rate");
   const JsonValue* duration = keys.optional("duration");
-  const bool own = strength != nullptr || rate != nullptr || duration != nullptr;
-  ObjectReader& from = own ? keys : defaults_;
-  const JsonValue& given = from.value();
-  if (!own) {
-    for (const char* key : {"strength", "rate", "duration"}) {
-      if (given.find(key) != nullptr) used_.push_back(key);
-    }
+  const bool own_rate = rate != nullptr || duration != nullptr;
+  const JsonValue& usual = defaults_.value();
+  if (strength != nullptr && own_rate) {
+    return document_.fault(*strength,
+                           "is given beside \"rate\" or \"duration\": expected either "
+                           "\"strength\", or \"rate\" and \"duration\"");
   }
-  if (given.find("rate") != nullptr || given.find("duration") != nullptr) {
-    if (strength != nullptr) {
-      return document_.fault(*strength,
-                             "is given beside \"rate\" or \"duration\": expected either "
-                             "\"strength\", or \"rate\" and \"duration\"");
-    }
-    return fill_rate(edit, keys, from, range);
-  }
-  const JsonValue* usual = own ? nullptr : given.find("strength");
-  if (usual != nullptr && amount == Amount::part && !(usual->number <= 1)) {
+  const bool usual_rate = usual.find("rate") != nullptr || usual.find("duration") != nullptr;
+  if (own_rate || (strength == nullptr && usual_rate)) return fill_rate(edit, keys, range);
+  ObjectReader& from = holder(keys, "strength");
+  if (&from == &defaults_ && amount == Amount::part && !(usual.find("strength")->number <= 1)) {
     return document_.fault(keys.value(),
                            "takes the default \"strength\", which is above 1: expected a "
                            "\"strength\" from 0 to 1");
@@ -257,13 +256,12 @@ void RecordReader::fill_amount(Edit& edit, ObjectReader& keys, Amount amount) {
   edit.strength = from.number("strength", 1, range);
 }
 
-void RecordReader::fill_rate(Edit& edit, ObjectReader& keys, ObjectReader& from,
-                             const NumberRange& range) {
+void RecordReader::fill_rate(Edit& edit, ObjectReader& keys, const NumberRange& range) {
   constexpr NumberRange kDuration{0, 1e9, true, "a number above 0, at most 1e9 (seconds)"};
   constexpr NumberRange kRate{-3.4028234663852886e38, 3.4028234663852886e38, false,
                               "a number within +-3.4e38"};
-  const double rate = from.number("rate", std::nullopt, kRate);
-  const double duration = from.number("duration", std::nullopt, kDuration);
+  const double rate = holder(keys, "rate").number("rate", std::nullopt, kRate);
+  const double duration = holder(keys, "duration").number("duration", std::nullopt, kDuration);
   const double steps = std::max(1.0, std::floor(duration / context_.header.dt + 0.5));
   if (steps > Script::kMostSteps) {
     return document_.fault(keys.value(), "takes more than " + std::to_string(Script::kMostSteps) +
@@ -305,10 +303,14 @@ void RecordReader::fill_paint(Edit& edit, ObjectReader& keys) {
 
 void RecordReader::check_dabs(const Edit& edit, const JsonValue& at) {
   if (!document_.faults.empty()) return;
-  n_dabs_ += most_dabs(edit);
-  if (!(n_dabs_ <= static_cast<double>(Script::kMostDabs))) {
-    document_.fault(at, "makes more than " + std::to_string(Script::kMostDabs) +
-                            " dabs: expected a shorter path, a wider \"spacing\" or fewer copies");
+  const double n = most_dabs(edit);
+  n_dabs_ += n;
+  constexpr double kMost = Script::kMostDabs;
+  if (!(n <= kMost) || !(n_dabs_ <= 10 * kMost)) {
+    document_.fault(at, (n <= kMost ? "brings the dabs of its group above "
+                                    : std::string("makes more dabs than ")) +
+                            std::to_string(Script::kMostDabs * (n <= kMost ? 10 : 1)) +
+                            ": expected a shorter path, a wider \"spacing\" or fewer copies");
   }
 }
 

@@ -36,7 +36,7 @@ class RecordReader {
   void fill_symmetry(Edit& edit, ObjectReader& keys);
   void fill_blend(Edit& edit, ObjectReader& keys);
   void fill_amount(Edit& edit, ObjectReader& keys, Amount amount);
-  void fill_rate(Edit& edit, ObjectReader& keys, ObjectReader& from, const NumberRange& range);
+  void fill_rate(Edit& edit, ObjectReader& keys, const NumberRange& range);
   void fill_smoothing(Edit& edit, ObjectReader& keys);
   void fill_plane(Edit& edit, ObjectReader& keys);
   void fill_stamp(Edit& edit, ObjectReader& keys);

@@ -61,6 +61,7 @@ class FaultLines {
 
 struct Script::State {
   std::string place;
+  SpecNesting within;
   std::unique_ptr<Descriptor> descriptor;
   std::unique_ptr<MappedFile> file;
   std::unique_ptr<ScriptText> text;
@@ -103,7 +104,7 @@ void Script::State::open() {
 
 void Script::State::open_header(Faults& faults) {
   const JsonDocument document{*root, faults};
-  context = std::make_unique<ScriptContext>(base_of(*root, place), SpecNesting{});
+  context = std::make_unique<ScriptContext>(base_of(*root, place), within);
   ObjectReader keys(document, *root, "an mc-edits script");
   read_header(document, keys, *context);
   edits = keys.optional("edits");
@@ -181,8 +182,10 @@ void Script::State::gather(FaultLines& faults,
   rewind();
 }
 
-Script::Script(const std::string& path) : state_(std::make_unique<State>()) {
+Script::Script(const std::string& path, const SpecNesting& within)
+    : state_(std::make_unique<State>()) {
   State& s = *state_;
+  s.within = within;
   if (is_stream(path)) {
     s.place = path == "-" ? "<stdin>" : path;
     s.descriptor = std::make_unique<Descriptor>(

@@ -14,6 +14,7 @@
 
 #include "mc/base.hpp"
 #include "mc/edit.hpp"
+#include "source/spec/spec_files.hpp"
 
 // Scripts of brush edits: the format mc-edits, see mc-edits(5). One JSON document, or JSON Lines
 // whose first line is the header, read record by record.
@@ -49,14 +50,15 @@ class Script {
  public:
   static constexpr std::size_t kMostNesting = 64;       ///< groups in groups
   static constexpr std::size_t kMostPoints = 1000000;   ///< of a path
-  static constexpr std::uint64_t kMostDabs = 10000000;  ///< of a record, its group's in all
+  static constexpr std::uint64_t kMostDabs = 1000000;   ///< of an edit; of a group ten times that
   static constexpr std::uint32_t kMostSteps = 1000000;  ///< of an edit
   static constexpr std::uint32_t kMostIterations = 100;
   static constexpr std::size_t kMostLineBytes = std::size_t{1} << 28;
 
   /// Opens a script; "-" is stdin, of which no more is read than the header (or the document).
+  /// `within` bounds the files that it names.
   /// Errors   usage: every fault of the header, or of the document; input: cannot be read.
-  explicit Script(const std::string& path);
+  explicit Script(const std::string& path, const SpecNesting& within = {});
   /// The same over a text in memory; `place` is how messages name it.
   Script(std::string place, std::string_view text);
   ~Script();

@@ -34,6 +34,12 @@ void RecordReader::fill_stamp(Edit& edit, ObjectReader& keys) {
   const std::optional<std::string> grid = keys.text("grid", true);
   const JsonValue* iso = keys.optional("iso");
   const std::size_t side = keys.choice("inside", 0, {"above", "below"});
+  if (const JsonValue* carve = keys.optional("carve")) {
+    edit.stamp_carves = carve->boolean;
+    if (carve->kind != JsonKind::boolean) {
+      document_.fault(*carve, as_found(*carve) + ": expected true or false");
+    }
+  }
   Affine to_index;
   if (file) {
     try {

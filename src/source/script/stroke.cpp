@@ -108,8 +108,9 @@ double path_radius(const BrushShape& shape) {
   switch (shape.type) {
     case ShapeType::sphere:
       return shape.radius;
-    case ShapeType::capsule:
-      return std::min(shape.radius, shape.end_radius);
+    case ShapeType::capsule:  // a taper's thin end is spaced as if it were not that thin
+      return std::max(std::min(shape.radius, shape.end_radius),
+                      std::max(shape.radius, shape.end_radius) / 16);
     case ShapeType::box:
       return least(shape.size) / 2;
     case ShapeType::ellipsoid:
@@ -118,13 +119,8 @@ double path_radius(const BrushShape& shape) {
       return std::min(shape.radius, shape.height / 2);
     case ShapeType::cone:
       return std::min(std::max(shape.radius, shape.end_radius), shape.height) / 2;
-    case ShapeType::node:
-      return least({shape.bounds[1][0] - shape.bounds[0][0],
-                    shape.bounds[1][1] - shape.bounds[0][1],
-                    shape.bounds[1][2] - shape.bounds[0][2]}) /
-             2;
     default:
-      return 0;
+      return shape.radius;
   }
 }
 

@@ -19,7 +19,7 @@ namespace mc::source {
 [[nodiscard]] std::optional<Radial> read_radial(const JsonDocument& document,
                                                 const JsonValue& value);
 
-/// The radius that a path's spacing refers to: the shape's inradius. 0 where it has none.
+/// The radius that a path's spacing refers to, or less: the shape's inradius; 0 where it has none.
 [[nodiscard]] double path_radius(const BrushShape& shape);
 /// At least as many brush positions as the edit has; infinite past all bounds.
 [[nodiscard]] double most_dabs(const Edit& edit);

@@ -107,6 +107,40 @@ TEST(Script, DefaultsAreTakenWhereARecordSaysNothing) {
   EXPECT_EQ(records[2].text, R"({"op":"fill","value":1})");
 }
 
+TEST(Script, ARecordsDurationTakesTheDefaultRate) {
+  const auto records =
+      records_of(R"({"format":"mc-edits","version":1,"dt":0.1,"defaults":{"rate":2,"duration":1}})"
+                 "\n"
+                 R"({"op":"add","shape":{"type":"sphere","radius":1},"duration":0.5})"
+                 "\n"
+                 R"({"op":"add","shape":{"type":"sphere","radius":1},"strength":7})");
+  EXPECT_EQ(records[0].edit.steps, 5U);
+  EXPECT_DOUBLE_EQ(records[0].edit.strength, 0.2);
+  EXPECT_EQ(records[1].edit.steps, 1U);
+  EXPECT_EQ(records[1].edit.strength, 7);
+}
+
+TEST(Script, AStampLiesWhereItsPlaceSays) {
+  const std::string file = test::source_file("data/scripts/crater.json");
+  const Edit edit = edit_of(R"({"op":"stamp","file":")" + file +
+                            R"(","translate":[10,20,30],"scale":[2,4,8],"rotate":[0,0,90],)"
+                            R"("pivot":[1,0,0],"carve":true})");
+  EXPECT_EQ(edit.blend, Blend::csg);
+  EXPECT_EQ(edit.falloff.type, FalloffType::none);
+  EXPECT_TRUE(edit.stamp_carves && edit.stamp_above);
+  ASSERT_TRUE(edit.stamp);
+  // The pivot comes to lie at translate; a step along x of the stamp is now one along y, twice as
+  // long.
+  const auto index_of = [&](const Vec3& p) { return edit.stamp->to_index(p); };
+  const Vec3 pivot = index_of({10, 20, 30});
+  EXPECT_NEAR(pivot[0], (1 + 2.4) / 0.1, 1e-9);
+  EXPECT_NEAR(pivot[1], 1.6 / 0.1, 1e-9);
+  EXPECT_NEAR(pivot[2], 2.4 / 0.1, 1e-9);
+  const Vec3 along = index_of({10, 22, 30});
+  EXPECT_NEAR(along[0] - pivot[0], 10, 1e-9);
+  EXPECT_NEAR(along[1] - pivot[1], 0, 1e-9);
+}
+
 TEST(Script, ADocumentAndItsLinesMeanTheSame) {
   const std::string one = R"({"op":"group","name":"eye","edits":[{"op":"fill","value":2},)"
                           R"({"op":"revert","shape":{"type":"plane"}}]})";
