@@ -126,6 +126,39 @@ std::vector<Option> options_of(ExtractArgs& a) {
   return all;
 }
 
+std::vector<Option> options_of(EditArgs& a) {
+  ExtractArgs& m = a.mesh;
+  std::vector<Option> all{
+      {"--script", "FILE", "the edits, of format mc-edits; - is stdin, followed line by line", true,
+       &a.script},
+      {"-o,--output", "FILE", "a mesh or a volume, by its extension; may be repeated", true,
+       &a.outputs},
+      {"--to", "TYPE", "a type of mesh or volume, for stdout (default: by the extension)", true,
+       &m.to},
+      {"--journal", "FILE", "record the edits, each with hashes, as a script to replay", true,
+       &a.journal},
+      {"--sync", "", "be done only when journal and outputs are on the disk", false, &m.sync},
+      {"--undo", "N", "steps that can be taken back (default: all; live 256)", false, &a.undo},
+      {"--keep-going", "", "pass over bad records; the status is 2 all the same", false,
+       &a.keep_going},
+  };
+  append(all, surface_options(m));
+  append(all, source_options(m.source));
+  append(all, place_options(m));
+  append(all,
+         {{"--ascii", "", "PLY, STL: text form", false, &m.ascii},
+          {"--precision", "HOW", "PLY: float or double coordinates", false, &m.precision},
+          {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &m.report},
+          {"--dry-run", "", "say what each edit would touch, and stop", true, &m.dry_run},
+          {"--force", "", "replace existing outputs; write binary to a terminal", true, &m.force},
+          {"--allow-empty", "", "a mesh without triangles is a success", false, &m.allow_empty},
+          {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
+           &m.no_skip}});
+  append(all, run_options(m.common, m.memory));
+  append(all, talk_options(m.common));
+  return all;
+}
+
 std::vector<Option> options_of(SampleArgs& a) {
   std::vector<Option> all{
       {"-o,--output", "FILE", ".vdb, .nrrd or .raw, slices.####.exr; with --slice .png or .exr",

@@ -14,6 +14,7 @@
 namespace mc::cli {
 
 using Text = std::optional<std::string>;
+using Texts = std::vector<std::string>;  ///< of an option that may be repeated
 
 /// How a source is to be read; the same for every command that takes volumes.
 struct SourceArgs {
@@ -42,6 +43,13 @@ struct ExtractArgs {
   Text precision;
   Text memory, report;
   bool dry_run = false, force = false, sync = false, allow_empty = false, no_skip = false;
+};
+
+struct EditArgs {
+  ExtractArgs mesh;  ///< input, surface and how it is written; its output is not used
+  Texts outputs;
+  Text script, journal, undo;
+  bool keep_going = false;
 };
 
 struct SampleArgs {
@@ -85,13 +93,14 @@ struct Option {
   std::string_view value;  ///< placeholder in help; empty for a flag
   std::string_view help;
   bool basic = false;  ///< shown by --help without -v
-  std::variant<Text*, bool*, int*> target;
+  std::variant<Text*, Texts*, bool*, int*> target;
   std::string_view values = {};  ///< all that it can be, with blanks between; empty: anything
 };
 
 /// The options of a command, bound to `args`, in the order help shows them. The one table that
 /// parsing, help, and the test of the manual pages read.
 std::vector<Option> options_of(ExtractArgs& args);
+std::vector<Option> options_of(EditArgs& args);
 std::vector<Option> options_of(SampleArgs& args);
 std::vector<Option> options_of(InfoArgs& args);
 std::vector<Option> options_of(CheckArgs& args);

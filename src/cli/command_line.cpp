@@ -22,6 +22,10 @@ void bind(CLI::App& app, const Option& option) {
   if (Text* const* text = std::get_if<Text*>(&option.target)) {
     app.add_option_function<std::string>(
         names, [target = *text](const std::string& value) { *target = value; });
+  } else if (Texts* const* texts = std::get_if<Texts*>(&option.target)) {
+    app.add_option_function<std::vector<std::string>>(
+           names, [target = *texts](const std::vector<std::string>& values) { *target = values; })
+        ->allow_extra_args(false);
   } else if (bool* const* flag = std::get_if<bool*>(&option.target)) {
     app.add_flag_callback(names, [target = *flag] { *target = true; });
   } else {

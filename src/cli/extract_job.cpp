@@ -183,6 +183,7 @@ void Extraction::choose_surface() {
                       [&](std::span<const double> percentiles) { return measure(percentiles); });
   for (const Iso& iso : isos_) {
     report_.isos.push_back(iso.value);
+    if (!plan_.tells_iso) continue;
     const std::string value = iso_text(iso.value, volume().type);
     invocation_.console.note(iso.reason.empty() ? fmt::format("iso {}", value)
                                                 : fmt::format("iso {} ({})", value, iso.reason));

@@ -36,6 +36,12 @@ constexpr std::array<Page, 6> kPages{{
      "  mc extract head.raw --dims 256,256,128 --type u16 --iso 900 -o head.ply\n"
      "  mc extract scan.nrrd --iso otsu --border closed -o scan.stl\n"
      "  mc extract *.vdb --out-dir meshes --to ply --report -\n"},
+    {"edit", "mc edit INPUT --script EDITS -o OUTPUT...", "brush edits, then mesh or volume",
+     "Changes a volume by a script of brush edits (.json of format mc-edits, or JSON Lines; -\n"
+     "is stdin, each line acted on as it comes) and writes meshes and volumes.\n",
+     "  mc edit terrain.json --script tunnel.json -o tunnel.glb\n"
+     "  mc edit scan.vdb --script edits.jsonl -o scan2.vdb -o scan2.ply\n"
+     "  mc edit world.vdb --script - --journal world.jsonl -o sculpted.vdb < pipe\n"},
     {"sample", "mc sample INPUT -o VOLUME", "any input to a volume file",
      "Writes the samples of a volume, or of a mc-volume spec, as .vdb, .nrrd, .raw or\n"
      "OpenEXR slices; with --slice one plane of them as a picture.\n",
@@ -72,7 +78,7 @@ struct Topic {
   std::string_view text;
 };
 
-constexpr std::array<Topic, 2> kTopics{{
+constexpr std::array<Topic, 3> kTopics{{
     {"mc-volume",
      "mc-volume: a procedural volume in one JSON file; all of it in mc-volume(5)\n\n"
      "  { \"format\": \"mc-volume\", \"version\": 1, \"convention\": \"density\",\n"
@@ -80,6 +86,15 @@ constexpr std::array<Topic, 2> kTopics{{
      "    \"field\": { \"type\": \"difference\", \"smooth\": 2,\n"
      "      \"a\": { \"type\": \"box\", \"center\": [32, 32, 32], \"size\": [40, 40, 40] },\n"
      "      \"b\": { \"type\": \"sphere\", \"center\": [52, 52, 52], \"radius\": 18 } } }\n"},
+    {"mc-edits",
+     "mc-edits: a script of brush edits, one a line; all of it in mc-edits(5)\n\n"
+     "  {\"format\":\"mc-edits\",\"version\":1,\"defaults\":{\"falloff\":\"smoothstep\"}}\n"
+     "  "
+     "{\"op\":\"add\",\"shape\":{\"type\":\"sphere\",\"center\":[64,30,64],\"radius\":6},"
+     "\"strength\":2}\n"
+     "  {\"op\":\"subtract\",\"shape\":{\"type\":\"capsule\",\"radius\":[3,1.5]},\"strength\":5,\n"
+     "   \"path\":{\"points\":[[10,20,10],[40,18,30]],\"mode\":\"sweep\"}}\n"
+     "  {\"op\":\"undo\"}\n"},
     {"formats",
      "Inputs   .vdb; .nrrd and .nhdr (raw encoding); .json of format mc-volume; raw files and\n"
      "         slices with --dims and --type, or with a .nhdr beside them; slices in .exr or\n"
@@ -103,6 +118,10 @@ void with_options(std::string_view command,
                   const std::function<void(const std::vector<Option>&)>& f) {
   if (command == "extract") {
     ExtractArgs args;
+    return f(options_of(args));
+  }
+  if (command == "edit") {
+    EditArgs args;
     return f(options_of(args));
   }
   if (command == "sample") {
@@ -161,7 +180,7 @@ std::string program_text(bool verbose) {
   for (const Page& page : kPages) text += fmt::format("  {:12}{}\n", page.name, page.summary);
   text += "\nOptions:\n";
   with_options("", [&](const std::vector<Option>& o) { text += options_text(o, verbose); });
-  text += "\nOther topics of mc help: mc-volume, formats\n";
+  text += "\nOther topics of mc help: mc-volume, mc-edits, formats\n";
   text +=
       "\nExample:\n"
       "  mc extract smoke.vdb -o smoke.glb\n\n"

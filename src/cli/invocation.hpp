@@ -28,6 +28,7 @@ void print_out(std::string_view text);
 
 /// Each runs one command from its words (those after its name) and returns the exit status.
 int run_extract(Invocation& invocation, std::vector<std::string> words);
+int run_edit(Invocation& invocation, std::vector<std::string> words);
 int run_sample(Invocation& invocation, std::vector<std::string> words);
 int run_info(Invocation& invocation, std::vector<std::string> words);
 int run_check(Invocation& invocation, std::vector<std::string> words);

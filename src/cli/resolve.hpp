@@ -67,6 +67,7 @@ struct ExtractPlan {
   bool dry_run = false;
   bool allow_empty = false;
   bool skip = true;
+  bool tells_iso = true;  ///< notes say which iso was taken, and why
   CommonOptions common;
 };
 

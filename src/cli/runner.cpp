@@ -26,8 +26,9 @@ namespace {
 
 using Command = int (*)(Invocation&, std::vector<std::string>);
 
-constexpr std::array<std::pair<std::string_view, Command>, 7> kCommands{
+constexpr std::array<std::pair<std::string_view, Command>, 8> kCommands{
     {{"extract", run_extract},
+     {"edit", run_edit},
      {"sample", run_sample},
      {"info", run_info},
      {"check", run_check},

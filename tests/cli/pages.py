@@ -15,7 +15,8 @@ import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
-COMMANDS = {"mc": "", "mc-extract": "extract", "mc-sample": "sample", "mc-info": "info",
+COMMANDS = {"mc": "", "mc-extract": "extract", "mc-edit": "edit",
+            "mc-sample": "sample", "mc-info": "info",
             "mc-check": "check", "mc-bench": "bench", "mc-completion": "completion"}
 
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mc/edit.hpp"
+#include "mc/extract.hpp"
+#include "mc/mesh.hpp"
+
+// What `mc edit` says in JSON: a line for each record of the script, one for each output (see
+// report.hpp), and one at the end.
+
+namespace mc::cli {
+
+/// One record, done.
+struct RecordReport {
+  std::uint64_t number = 0;
+  std::string op;
+  EditEffect effect{};                  ///< of a group, its edits' together
+  Bounds bounds{};                      ///< of what was touched, in the script's space
+  std::optional<std::size_t> count{};   ///< undo, redo: steps
+  std::optional<std::string> output{};  ///< write
+  double seconds = 0;                   ///< from the record's arrival
+};
+
+struct EditTotals {
+  int status = 0;
+  std::optional<std::string> error;
+  std::string input;
+  double iso = 0;
+  Inside inside = Inside::above;
+  bool index_space = false;
+  std::uint64_t n_records = 0;
+  std::uint64_t n_edits = 0;    ///< of groups each
+  std::uint64_t n_outside = 0;  ///< edits that lay wholly outside
+  std::uint64_t n_changed = 0;  ///< samples, each edit's counted
+  std::uint64_t n_stored_blocks = 0;
+  std::uint64_t stored_bytes = 0;
+  std::vector<std::string> warnings;
+};
+
+/// Whether no sample lies in the box.
+[[nodiscard]] bool is_empty(const IndexBox& box);
+
+std::string to_json(const RecordReport& report);
+std::string to_json(const EditTotals& totals);
+
+}  // namespace mc::cli

@@ -1,0 +1,383 @@
+// SPDX-License-Identifier: MIT
+#include "cli/edit_session.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "cli/extract_job.hpp"
+#include "cli/region.hpp"
+#include "cli/surface_choice.hpp"
+#include "cli/values.hpp"
+#include "cli/volume_job.hpp"
+#include "mc/sink.hpp"
+
+// Script, input, outputs: whatever can refuse comes before the first edit. Then record by record,
+// each told of when it is done; then the outputs.
+
+namespace mc::cli {
+
+namespace {
+
+/// Steps that a live session keeps: its memory must not grow for ever.
+constexpr std::size_t kLiveUndo = 256;
+
+const ExtractPlan* mesh_plan(const EditOutput& output) {
+  return std::get_if<ExtractPlan>(&output.plan);
+}
+
+/// Grows `box` by `other`.
+void include_box(IndexBox& box, const IndexBox& other) {
+  if (is_empty(other)) return;
+  if (is_empty(box)) {
+    box = other;
+    return;
+  }
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.lo[a] = std::min(box.lo[a], other.lo[a]);
+    box.hi[a] = std::max(box.hi[a], other.hi[a]);
+  }
+}
+
+/// Samples that `more` touched, besides those of `sum`.
+void include(EditEffect& sum, const EditEffect& more) {
+  include_box(sum.touched, more.touched);
+  sum.n_samples += more.n_samples;
+  sum.n_changed += more.n_changed;
+  sum.n_dabs += more.n_dabs;
+  sum.n_outside += more.n_outside;
+}
+
+bool steps(source::RecordKind kind) {
+  return kind == source::RecordKind::undo || kind == source::RecordKind::redo;
+}
+
+}  // namespace
+
+EditSession::EditSession(const EditArgs& args, EditPlan plan, Invocation& invocation)
+    : args_(args),
+      plan_(std::move(plan)),
+      invocation_(invocation),
+      report_(plan_.report),
+      script_(plan_.script) {}
+
+void EditSession::check_script() {
+  if (script_.is_live() || plan_.keep_going) return;
+  may_undo_ = false;
+  script_.check([&](const source::ScriptRecord& record) {
+    may_undo_ = may_undo_ || steps(record.kind);
+    if (record.kind == source::RecordKind::write) look_at_write(record);
+  });
+  if (plan_.outputs.empty() && writes_.empty() && !plan_.journal && !plan_.dry_run) {
+    throw Error(ErrorKind::usage, "edit", "no output: expected -o FILE",
+                "or a write record in the script, or --dry-run");
+  }
+}
+
+void EditSession::look_at_write(const source::ScriptRecord& record) {
+  const std::string path = source::path_of_write(record.path, writes_.size() + 1);
+  try {
+    writes_.push_back(resolve_write(args_, path));
+  } catch (const Error& error) {
+    throw Error(error.kind(), script_.place(),
+                fmt::format("record {}: {}", record.number, error.what()));
+  }
+  if (!written_.insert(path).second && !args_.mesh.force) {
+    throw Error(ErrorKind::usage, script_.place(),
+                fmt::format("record {}: {} would be written a second time", record.number, path),
+                "number it: step-{n:04}.glb; or replace it: --force");
+  }
+}
+
+/// An output that cannot be written is found before the work. Devices and FIFOs are left alone.
+void EditSession::probe(const EditOutput& output) const {
+  struct stat status {};
+  const bool exists = output.path != "-" && stat(output.path.c_str(), &status) == 0;
+  if (output.path == "-" || (exists && !S_ISREG(status.st_mode))) return;
+  if (const ExtractPlan* mesh = mesh_plan(output)) {
+    open_mesh_sink(output.path, mesh->sink);
+  } else {
+    open_volume_sink(output.path, std::get<SamplePlan>(output.plan).sink);
+  }
+}
+
+void EditSession::check_outputs() {
+  for (const auto* outputs : {&plan_.outputs, &writes_}) {
+    for (const EditOutput& output : *outputs) probe(output);
+  }
+}
+
+void EditSession::open_input() {
+  const std::vector<std::string>& inputs = args_.mesh.source.inputs;
+  totals_.input = inputs.front();
+  source_.emplace(open_source(inputs, plan_.surface.source, invocation_.console));
+  totals_.input = source_->place;
+  check_region(source_->reader, plan_.surface.extract.region);
+  if (!plan_.surface.source.grid && !source_->other_grids.empty()) {
+    invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
+                                         source_->place, volume_of(source_->reader).name,
+                                         fmt::join(source_->other_grids, ", ")));
+  }
+}
+
+/// Once, of the input: edits do not move the surface's value.
+void EditSession::choose_surface() {
+  const Volume& volume = volume_of(source_->reader);
+  const auto measure = [&](std::span<const double> percentiles) {
+    return measure_field(source_->reader, percentiles, invocation_.console,
+                         invocation_.stop.get_token());
+  };
+  ExtractPlan& surface = plan_.surface;
+  const std::vector<Iso> isos = choose_isos(surface.isos, volume, source_->place, measure);
+  surface.inside = choose_inside(surface.inside, surface.invert, volume);
+  surface.invert = false;
+  surface.isos.clear();
+  for (const Iso& iso : isos) {
+    surface.isos.push_back({IsoChoice::Kind::number, iso.value});
+    const std::string value = iso_text(iso.value, volume.type);
+    invocation_.console.note(iso.reason.empty() ? fmt::format("iso {}", value)
+                                                : fmt::format("iso {} ({})", value, iso.reason));
+  }
+  totals_.iso = isos.front().value;
+  totals_.inside = *surface.inside;
+  totals_.index_space = script_.header().index_space;
+  for (EditOutput& output : plan_.outputs) pin(output);
+  const EditRules rules{
+      .above = *surface.inside == Inside::above,
+      .iso = totals_.iso,
+      .to_world = totals_.index_space ? Affine{} : volume.lattice.to_world,
+  };
+  store_.emplace(source_->reader, rules);
+  if (args_.mesh.memory) store_->limit_memory(surface.memory_bytes);
+}
+
+/// A mesh is cut where the edits took the surface to be.
+void EditSession::pin(EditOutput& output) const {
+  auto* mesh = std::get_if<ExtractPlan>(&output.plan);
+  if (mesh == nullptr) return;
+  mesh->isos = plan_.surface.isos;
+  mesh->inside = plan_.surface.inside;
+  mesh->invert = false;
+  mesh->tells_iso = false;
+}
+
+void EditSession::begin() {
+  if (script_.is_live() || plan_.undo) {
+    store_->keep_undo(plan_.undo.value_or(kLiveUndo));
+  } else if (!may_undo_) {
+    store_->keep_undo(0);
+  }
+  if (plan_.journal) {
+    journal_ = std::make_unique<Journal>(*plan_.journal, script_.journal_header(), args_.mesh.force,
+                                         args_.mesh.sync);
+    hash_ = store_->hash();
+  }
+}
+
+/// The next good record; bad ones are told of, and end the script unless it is to be kept going.
+std::optional<source::ScriptRecord> EditSession::next_record() {
+  for (;;) {
+    try {
+      return script_.next();
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::usage) throw;
+      const int status = show(invocation_.console, {static_cast<int>(error.kind()), error.lines()});
+      if (status_ == 0) status_ = status;
+      if (plan_.keep_going) continue;
+      invocation_.console.note(
+          fmt::format("{}: stopped; what came before stands", script_.place()));
+      return std::nullopt;
+    }
+  }
+}
+
+void EditSession::follow_script() {
+  while (const auto record = next_record()) {
+    if (invocation_.stop.stop_requested()) throw Cancelled();
+    do_record(*record);
+    ++totals_.n_records;
+  }
+  if (!script_.torn().empty()) {
+    invocation_.console.warn(
+        fmt::format("{}: the journal's last line is torn and was left out", script_.torn()));
+  }
+  if (totals_.n_outside > 1) {
+    invocation_.console.note(fmt::format("{} edits lay outside the volume", totals_.n_outside));
+  }
+}
+
+void EditSession::do_record(const source::ScriptRecord& record) {
+  const auto began = Clock::now();
+  RecordReport report{.number = record.number, .op = record.op};
+  check_hash(record, record.before, "before");
+  if (steps(record.kind)) {
+    step_back_or_forth(record, report);
+  } else if (record.kind == source::RecordKind::write) {
+    EditOutput output = resolve_write(args_, source::path_of_write(record.path, ++n_writes_));
+    report.output = output.path;
+    pin(output);
+    write_output(std::move(output));
+  } else {
+    report.effect = apply(record);
+    totals_.n_changed += report.effect.n_changed;
+    note_in_journal(record, 1);
+  }
+  check_hash(record, record.after, "after");
+  static_cast<void>(store_->take_dirty());
+  if (!is_heard()) return;
+  report.bounds = bounds_of(report.effect.touched);
+  report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  tell(to_json(report));
+}
+
+EditEffect EditSession::apply(const source::ScriptRecord& record) {
+  if (record.kind == source::RecordKind::edit) {
+    const EditEffect effect = store_->apply(record.edit);
+    ++totals_.n_edits;
+    count_outside(record, effect);
+    return effect;
+  }
+  EditEffect sum;
+  store_->begin_group();
+  for (const source::ScriptRecord& member : record.members) include(sum, apply(member));
+  store_->end_group();
+  return sum;
+}
+
+void EditSession::count_outside(const source::ScriptRecord& record, const EditEffect& effect) {
+  if (effect.n_dabs == 0 || effect.n_outside < effect.n_dabs) return;
+  if (totals_.n_outside++ != 0) return;
+  invocation_.console.warn(fmt::format(
+      "{}: {} lies outside the volume and changes nothing; more such edits are only counted",
+      script_.place(),
+      record.number != 0 ? fmt::format("record {}", record.number) : "an edit of a group"));
+}
+
+void EditSession::step_back_or_forth(const source::ScriptRecord& record, RecordReport& report) {
+  const bool back = record.kind == source::RecordKind::undo;
+  const std::size_t n = back ? store_->undo(record.count) : store_->redo(record.count);
+  report.count = n;
+  if (n < record.count) {
+    invocation_.console.warn(fmt::format("{}: record {}: {} of {} steps {}: there were no more",
+                                         script_.place(), record.number, n, record.count,
+                                         back ? "undone" : "done again"));
+  }
+  if (n > 0) note_in_journal(record, n);
+}
+
+/// A journal is of use only on the volume that it was recorded on.
+void EditSession::check_hash(const source::ScriptRecord& record,
+                             const std::optional<std::uint64_t>& expected, const char* when) const {
+  if (!expected || *expected == store_->hash()) return;
+  throw Error(ErrorKind::input, script_.place(),
+              fmt::format("record {}: the volume {} it differs from the one that was recorded",
+                          record.number, when),
+              "replay a journal on its own input, or leave out \"before\" and \"after\"");
+}
+
+void EditSession::note_in_journal(const source::ScriptRecord& record, std::size_t n_steps) {
+  if (!journal_) return;
+  const std::uint64_t before = std::exchange(hash_, store_->hash());
+  const std::string text = steps(record.kind)
+                               ? fmt::format(R"({{"op":"{}","count":{}}})", record.op, n_steps)
+                               : record.text;
+  journal_->add(text, before, hash_);
+}
+
+void EditSession::write_output(EditOutput output) {
+  const Source edited{source_->place, store_->reader(), {}};
+  if (const ExtractPlan* mesh = mesh_plan(output)) {
+    RunReport report;
+    run_open_job(*mesh, output.path, edited, invocation_, report);
+    if (plan_.report) tell(to_json(report));
+    return;
+  }
+  auto& volume = std::get<SamplePlan>(output.plan);
+  volume.sink.provenance.emplace_back("generator", "mc " MC_VERSION);
+  check_region(edited.reader, volume.region);
+  write_volume(edited.reader, volume, invocation_);
+}
+
+bool EditSession::is_heard() const { return plan_.report.has_value(); }
+
+void EditSession::tell(const std::string& line) {
+  if (plan_.report) report_.add_line(line);
+}
+
+/// The corners' box in the script's space.
+Bounds EditSession::bounds_of(const IndexBox& touched) const {
+  Bounds bounds;
+  if (is_empty(touched)) return bounds;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto at = [&](std::size_t a) {
+      return static_cast<double>(((corner >> a) & 1) != 0 ? touched.hi[a] : touched.lo[a]);
+    };
+    bounds.include(store_->rules().to_world({at(0), at(1), at(2)}));
+  }
+  return bounds;
+}
+
+EditEffect EditSession::measure(const source::ScriptRecord& record) {
+  if (record.kind == source::RecordKind::edit) return store_->measure(record.edit);
+  EditEffect sum;
+  for (const source::ScriptRecord& member : record.members) include(sum, measure(member));
+  return sum;
+}
+
+/// What each record would touch of the volume as it is.
+void EditSession::describe() {
+  while (const auto record = next_record()) {
+    ++totals_.n_records;
+    if (steps(record->kind) || record->kind == source::RecordKind::write) {
+      if (plan_.report != "-") {
+        print_out(fmt::format("record {:<4} {}{}\n", record->number, record->op,
+                              record->path.empty() ? "" : " " + record->path));
+      }
+      continue;
+    }
+    RecordReport report{.number = record->number, .op = record->op, .effect = measure(*record)};
+    const EditEffect& e = report.effect;
+    report.bounds = bounds_of(e.touched);
+    if (plan_.report) report_.add_line(to_json(report));
+    if (plan_.report == "-") continue;
+    std::string text = fmt::format("record {:<4} {:<8} {} dabs, {} samples", record->number,
+                                   record->op, e.n_dabs, e.n_samples);
+    if (is_empty(e.touched)) {
+      text += ", outside the volume";
+    } else {
+      text += fmt::format(", {} to {}", fmt::join(e.touched.lo, ","), fmt::join(e.touched.hi, ","));
+    }
+    print_out(text + "\n");
+  }
+}
+
+int EditSession::run() {
+  check_script();
+  open_input();
+  check_outputs();
+  choose_surface();
+  if (plan_.dry_run) {
+    describe();
+    return status_;
+  }
+  begin();
+  follow_script();
+  for (EditOutput& output : plan_.outputs) write_output(std::move(output));
+  return status_;
+}
+
+void EditSession::close_report(int status, const std::optional<std::string>& error) {
+  totals_.status = status;
+  totals_.error = error;
+  if (store_) {
+    totals_.n_stored_blocks = store_->n_stored_blocks();
+    totals_.stored_bytes = store_->stored_bytes();
+  }
+  totals_.warnings = invocation_.console.take_warnings();
+  if (is_heard()) tell(to_json(totals_));
+  report_.finish();
+}
+
+}  // namespace mc::cli

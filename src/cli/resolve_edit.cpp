@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "cli/resolve_edit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "cli/command_line.hpp"
+#include "cli/values.hpp"
+
+// Every output is resolved as `mc extract` or `mc sample` would resolve it.
+
+namespace mc::cli {
+
+namespace {
+
+[[noreturn]] void refuse(std::string_view option, std::string_view fault,
+                         std::string_view remedy = {}) {
+  throw Error(ErrorKind::usage, option, fault, remedy);
+}
+
+/// Of several outputs only stdout needs --to, the others say by their names what they are.
+std::string format_of(const EditArgs& args, const std::string& path) {
+  SinkOptions options;
+  if (args.mesh.to && (path == "-" || args.outputs.size() < 2)) options.to = *args.mesh.to;
+  return output_format(path, options);
+}
+
+EditOutput resolve_output(const EditArgs& args, const std::string& path,
+                          const std::string& format) {
+  if (is_mesh_format(format)) {
+    ExtractArgs mesh = args.mesh;
+    mesh.output = path;
+    mesh.to = format;
+    return {path, resolve(mesh)};
+  }
+  if (format == "png") {
+    refuse(path, "png holds one slice of a volume",
+           "write .vdb, .nrrd or .raw, then use mc sample");
+  }
+  SampleArgs volume;
+  volume.source = args.mesh.source;
+  volume.common = args.mesh.common;
+  volume.output = path;
+  volume.to = format;
+  volume.region = args.mesh.region;
+  volume.memory = args.mesh.memory;
+  volume.force = args.mesh.force;
+  return {path, resolve(volume)};
+}
+
+void check_input(const EditArgs& args) {
+  if (args.mesh.source.inputs.empty()) {
+    refuse("edit", "no input: expected a file, a folder, or - for stdin", "see mc edit --help");
+  }
+  if (!args.script) {
+    refuse("edit", "no script: expected --script FILE, or - for stdin",
+           fmt::format("for example: mc edit {} --script edits.json",
+                       shell_text(args.mesh.common.typed)));
+  }
+  if (args.script->empty()) refuse("--script", "the script's name is empty");
+  if (*args.script == "-" && std::ranges::count(args.mesh.source.inputs, "-") != 0) {
+    refuse("--script", "stdin cannot be the input and the script", "give one of them as a file");
+  }
+}
+
+/// stdout has room for one thing.
+void check_streams(const EditArgs& args, const EditPlan& plan) {
+  const auto on_stdout = std::ranges::count(args.outputs, "-");
+  if (on_stdout > 1) refuse("--output", "- is given more than once");
+  if (on_stdout != 0 && plan.report == "-") {
+    refuse("--report", "cannot go to stdout with --output -", "give another FILE");
+  }
+  for (const auto& [option, path] :
+       {std::pair{"--report", plan.report}, {"--journal", plan.journal}}) {
+    if (!path) continue;
+    if (path->empty()) refuse(option, "the file's name is empty");
+    if (*path == "-") continue;
+    if (*path == args.script || std::ranges::count(args.outputs, *path) != 0 ||
+        std::ranges::count(args.mesh.source.inputs, *path) != 0) {
+      refuse(option, "names an input or output itself", "give another FILE");
+    }
+  }
+  if (plan.journal == "-") refuse("--journal", "cannot go to stdout", "give a FILE");
+  if (plan.journal && plan.journal == plan.report) refuse("--journal", "names the report itself");
+}
+
+}  // namespace
+
+EditOutput resolve_write(const EditArgs& args, const std::string& path) {
+  return resolve_output(args, path, output_format(path, {}));
+}
+
+EditPlan resolve(const EditArgs& args) {
+  check_input(args);
+  EditPlan plan;
+  plan.script = *args.script;
+  plan.journal = args.journal;
+  plan.report = args.mesh.report;
+  plan.keep_going = args.keep_going;
+  plan.dry_run = args.mesh.dry_run;
+  check_streams(args, plan);
+  for (const std::string& path : args.outputs) {
+    if (path.empty()) refuse("--output", "the output's name is empty");
+    if (std::ranges::count(args.outputs, path) > 1) {
+      refuse("--output", fmt::format("{} is given more than once", path));
+    }
+    plan.outputs.push_back(resolve_output(args, path, format_of(args, path)));
+  }
+  ExtractArgs surface = args.mesh;
+  surface.output = "surface.glb";
+  surface.to = "glb";
+  surface.ascii = false;
+  surface.precision.reset();
+  plan.surface = resolve(surface);
+  plan.surface.report = plan.report;
+  if (args.undo) {
+    plan.undo = static_cast<std::size_t>(
+        parse_integer("--undo", *args.undo, 0, std::numeric_limits<std::int32_t>::max()));
+  }
+  return plan;
+}
+
+}  // namespace mc::cli
