@@ -36,7 +36,8 @@ std::vector<Command> all_commands() {
   const auto add = [&](std::string_view name) {
     Command command{name, command_summary(name), {}, {}};
     if (name == "completion") command.words = "bash zsh fish";
-    if (name == "help") command.words = "extract sample info check bench mc-volume formats";
+    if (name == "help")
+      command.words = "extract edit sample info check bench mc-volume mc-edits formats";
     with_options(name, [&](const std::vector<Option>& options) { command.options = options; });
     all.push_back(std::move(command));
   };

@@ -26,7 +26,7 @@ struct Page {
   std::string_view examples;
 };
 
-constexpr std::array<Page, 6> kPages{{
+constexpr std::array<Page, 7> kPages{{
     {"extract", "mc extract INPUT... -o OUTPUT", "volume to triangle mesh",
      "Meshes the surface where the values of a volume pass --iso. INPUT is a VDB or NRRD\n"
      "file, a mc-volume spec (.json), raw data (with --dims and --type), raw slices, or -\n"

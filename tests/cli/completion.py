@@ -21,7 +21,7 @@ import tempfile
 import time
 
 SKIPPED = 77
-COMMANDS = ["extract", "sample", "info", "check", "bench", "completion", "help"]
+COMMANDS = ["extract", "edit", "sample", "info", "check", "bench", "completion", "help"]
 # Values that a command refuses by name, without any file.
 LISTED = [
     ("extract", "--inside"), ("extract", "--border"), ("extract", "--interpolation"),
