@@ -61,7 +61,7 @@ EditSession::EditSession(const EditArgs& args, EditPlan plan, Invocation& invoca
       plan_(std::move(plan)),
       invocation_(invocation),
       report_(plan_.report),
-      script_(plan_.script) {}
+      script_(plan_.script, {.open = {}, .root = plan_.surface.source.root}) {}
 
 void EditSession::check_script() {
   if (script_.is_live() || plan_.keep_going) return;
