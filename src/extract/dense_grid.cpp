@@ -14,7 +14,7 @@ DenseGrid::DenseGrid(const Volume& volume, const Affine& map, const ExtractOptio
       to_world(map),
       options(how),
       placement(map, how),
-      classifier(volume, how),
+      classifier(volume, how, part),
       apex(middle_of(how.region.value_or(volume.lattice.box))) {
   assert(volume.lattice.box.contains(how.region.value_or(volume.lattice.box)));
   set_part(part);

@@ -31,13 +31,14 @@ constexpr std::size_t kBandBytes = 1U << 18U;
 constexpr std::size_t kMinBandRows = 64;
 }  // namespace
 
-PlaneClassifier::PlaneClassifier(const Volume& volume, const ExtractOptions& options)
+PlaneClassifier::PlaneClassifier(const Volume& volume, const ExtractOptions& options,
+                                 const std::optional<IndexBox>& part)
     : threshold_(volume.type, volume.endian, options.iso, options.inside),
       region_(options.region.value_or(volume.lattice.box)),
       pad_(options.border != Border::open ? 1 : 0),
       ring_(options.normals != Normals::none ? 1 : 0),
       above_outside_((options.border == Border::solid) == (options.inside == Inside::above)) {
-  set_part(whole());
+  set_part(part.value_or(whole()));
 }
 
 IndexBox PlaneClassifier::whole() const { return grown(region_, pad_); }

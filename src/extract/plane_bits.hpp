@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "extract/classify.hpp"
@@ -29,7 +30,9 @@ struct PlaneBits {
 /// The shape of planes, and how they are made.
 class PlaneClassifier {
  public:
-  PlaneClassifier(const Volume& volume, const ExtractOptions& options);
+  /// Starts with a part, or with all.
+  PlaneClassifier(const Volume& volume, const ExtractOptions& options,
+                  const std::optional<IndexBox>& part = {});
 
   /// The region and, where the border is closed, the layer around it.
   [[nodiscard]] IndexBox whole() const;
