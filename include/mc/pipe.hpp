@@ -2,14 +2,19 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 
+#include "mc/edit.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
 #include "mc/mesh.hpp"
 
-// Drives a volume through the engine into a sink, slab by slab.
+// Drives a volume through the engine: into a sink, slab by slab, or in chunks, of which only those
+// that an edit reaches are made again.
 
 namespace mc {
 
@@ -48,5 +53,65 @@ void check_memory(const VolumeReader& reader, const RunOptions& options);
 /// Cancel   looked at once a slab; throws Cancelled.
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop);
+
+struct ChunkOptions {
+  ExtractOptions extract;
+  std::optional<Affine> to_world;  ///< instead of the volume's own
+  std::int32_t n_cells = 32;       ///< along a chunk's edge: a power of two from 8 to 256
+};
+
+/// The surface in a cube of cells: what remains of the whole volume's without the other cells.
+/// Vertices on a face that two chunks share are in both, bit for bit with their normals.
+struct SurfaceChunk {
+  Index3 id{};     ///< c: the cells that start at samples c n_cells to c n_cells + n_cells - 1
+  MeshChunk mesh;  ///< indices count from its own first vertex; empty where no surface is left
+  MeshTotals totals;
+};
+
+/// Sums over the chunks that have a surface.
+struct ChunkSums {
+  std::uint64_t n_chunks = 0;
+  std::uint64_t n_vertices = 0;  ///< those on shared faces counted in each
+  std::uint64_t n_triangles = 0;
+};
+
+/// The surface of a volume under edits, in chunks. A chunk that an edit reaches is made again and
+/// handed out; who wants to keep meshes keeps them. A chunk's bytes depend on the samples alone:
+/// they are those that a new mesher makes of the same volume, on any number of threads.
+/// Border   as the options say, at the border of the volume or region, and nowhere else: cells that
+///          lead to the constant layer around it belong to the chunks at the border.
+/// Threads  one caller; uses its arena where there are several chunks.
+/// Memory   a chunk's samples and mesh for each thread, and 40 bytes a chunk with a surface.
+class ChunkMesher {
+ public:
+  /// Takes each chunk that was made again, ordered by (z, y, x) of the id; one call at a time, on
+  /// any thread. The chunk's memory is used again afterwards.
+  using Take = std::function<void(const SurfaceChunk&)>;
+
+  /// Keeps a reference to `store`, which must outlive the mesher.
+  /// Errors   usage: n_cells, an iso that is not finite.
+  ChunkMesher(const EditStore& store, const ChunkOptions& options);
+  ~ChunkMesher();
+  ChunkMesher(ChunkMesher&& other) noexcept;
+  ChunkMesher& operator=(ChunkMesher&& other) noexcept;
+
+  /// Makes every chunk that has a surface, and hands out what had one before with an empty mesh.
+  /// Cost     dense: all samples; sparse: leaves and the faces of tiles.
+  void build(const Take& take);
+  /// Makes the chunks again whose cells or normals samples in the boxes can reach. Hands out those
+  /// with a surface, and with an empty mesh those that had one and have none now.
+  /// Errors   those of the store's input and of `take`: build() again after one.
+  /// Cost     samples in these chunks, then their surface. Allocates nothing once it has made
+  ///          chunks of the size, but where a chunk gets its first surface.
+  void update(std::span<const IndexBox> dirty, const Take& take);
+
+  /// Whether a chunk has a surface, as far as it was made.
+  [[nodiscard]] bool has_surface(const Index3& id) const;
+  [[nodiscard]] const ChunkSums& sums() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace mc

@@ -13,8 +13,6 @@ namespace mc::extraction {
 
 namespace {
 
-/// Indices that leave room for neighbours in 32 bits.
-constexpr std::int32_t kReach = (1 << 30) - 1;
 /// No vertices, nor cells of its own: not a block of the surface.
 constexpr std::uint16_t kNothing = 0xFFFF;
 
@@ -47,8 +45,7 @@ SparsePlan::SparsePlan(const LeafReader& reader, const ExtractOptions& options)
     : reader_(reader),
       options_(options),
       threshold_(reader.volume().type, std::endian::native, options.iso, options.inside),
-      box_(
-          options.region.value_or(IndexBox{{-kReach, -kReach, -kReach}, {kReach, kReach, kReach}})),
+      box_(options.region.value_or(kAllSamples)),
       capped_(options.region && options.border != Border::open),
       above_outside_((options.border == Border::solid) == (options.inside == Inside::above)),
       index_(reader, threshold_) {

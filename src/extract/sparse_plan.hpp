@@ -17,6 +17,11 @@
 
 namespace mc::extraction {
 
+/// Indices that leave room for neighbours in 32 bits.
+inline constexpr std::int32_t kReach = (1 << 30) - 1;
+/// Where samples of a sparse volume can be.
+inline constexpr IndexBox kAllSamples{{-kReach, -kReach, -kReach}, {kReach, kReach, kReach}};
+
 /// The sample bits of leaves that have both kinds, in groups, so that threads fill them side by
 /// side and nothing is copied to grow.
 class BitPool {

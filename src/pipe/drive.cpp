@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/parallel.hpp"
+#include "pipe/totals_sum.hpp"
 
 // A chunk stays with the thread that made it where its turn allows. Between a task and the end of
 // its writing lie at most two slots a thread, so memory does not grow with the volume.
@@ -13,45 +14,6 @@
 namespace mc::pipe {
 
 namespace {
-
-/// Adds up what tasks found, in their order.
-class Sum {
- public:
-  explicit Sum(bool measured) {
-    if (measured) {
-      totals_.area = 0;
-      totals_.volume = 0;
-    }
-  }
-  void add(const extraction::TaskTotals& task) {
-    totals_.n_vertices += task.n_vertices;
-    totals_.n_triangles += task.n_triangles;
-    totals_.n_boundary_edges += task.n_boundary_edges;
-    totals_.bounds.include(task.bounds);
-    totals_.n_asked += task.n_asked;
-    totals_.n_skipped += task.n_skipped;
-    for (const extraction::LayerSum& layer : task.layers) {
-      *totals_.area += layer.area;
-      *totals_.volume += layer.volume;
-    }
-  }
-  [[nodiscard]] MeshTotals totals(const Vec3& origin) const {
-    MeshTotals out = totals_;
-    if (out.n_boundary_edges != 0) {
-      out.volume.reset();  // an open surface encloses none
-    }
-    if (!out.bounds.empty()) {
-      for (std::size_t a = 0; a < 3; ++a) {
-        out.bounds.lo[a] += origin[a];
-        out.bounds.hi[a] += origin[a];
-      }
-    }
-    return out;
-  }
-
- private:
-  MeshTotals totals_;
-};
 
 bool has_chunk(const TaskResult& result) {
   return result.chunk.n_vertices() != 0 || result.chunk.n_triangles() != 0;
@@ -70,7 +32,7 @@ struct Drive::Work {
   Progress& progress;
   const std::stop_token& stop;
   MeshObject object;
-  Sum sum;
+  TotalsSum sum;
   std::uint64_t n_numbered = 0;  ///< vertices of tasks that have their ids
   bool begun = false;
 
@@ -160,7 +122,7 @@ void Drive::Work::make_pieces(std::size_t n, std::uint64_t first_vertex, TaskRes
 
 /// Counts tasks first, first + stride, ...
 MeshTotals Drive::Work::counts(std::size_t first, std::size_t stride) {
-  Sum counted(false);
+  TotalsSum counted(false);
   const auto nth = [first, stride](std::size_t item) { return first + item * stride; };
   const std::array<base::Step, 2> steps{{
       {false,
@@ -239,7 +201,7 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
             progress,
             stop,
             options.object,
-            Sum(options.extract.measure)};
+            TotalsSum(options.extract.measure)};
   work.object.iso = options.extract.iso;
   work.object.has_normals = options.extract.normals != Normals::none;
   work.object.precision = options.extract.precision;

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "extract/dense.hpp"
+#include "extract/sparse_plan.hpp"
+#include "mc/pipe.hpp"
+#include "pipe/chunk_grid.hpp"
+#include "pipe/totals_sum.hpp"
+
+// A chunk is a part of the volume to the dense engine, whose samples are copied together from
+// wherever the store has them. What is kept from chunk to chunk is scratch, and which chunks have a
+// surface.
+
+namespace mc {
+
+namespace {
+
+/// Of a sparse volume: where more chunks than this may have changed, those near a leaf or a tile's
+/// face are found first.
+constexpr std::uint64_t kManyChunks = 4096;
+
+const ChunkOptions& checked(const ChunkOptions& options) {
+  const std::int32_t n = options.n_cells;
+  if (n < 8 || n > 256 || !std::has_single_bit(static_cast<std::uint32_t>(n))) {
+    throw Error(ErrorKind::usage, "chunk",
+                std::to_string(n) + " cells are not a power of two from 8 to 256");
+  }
+  if (!std::isfinite(options.extract.iso)) {
+    throw Error(ErrorKind::usage, "iso", "is not finite");
+  }
+  return options;
+}
+
+struct IdHash {
+  std::size_t operator()(const Index3& id) const {
+    const auto part = [&](std::size_t a) {
+      return std::uint64_t{static_cast<std::uint32_t>(id[a])};
+    };
+    std::uint64_t h = (part(0) | part(1) << 32U) * 0x9E3779B97F4A7C15U;
+    h = (h ^ h >> 32U ^ part(2)) * 0xD6E8FEB86659FD93U;
+    return h ^ h >> 32U;
+  }
+};
+
+}  // namespace
+
+struct ChunkMesher::State {
+  struct Slot {
+    extraction::DenseExtractor extractor;
+    Slab slab;
+    SurfaceChunk chunk;
+    extraction::TaskTotals totals;
+  };
+  struct Counts {
+    std::uint64_t n_vertices, n_triangles;
+  };
+
+  State(const EditStore& edited, const ChunkOptions& chosen);
+
+  void list_all();
+  void list_surface();
+  void list_reached(std::span<const IndexBox> dirty);
+  void remake(const Take& take);
+  void make(const Index3& id, Slot& slot) const;
+  void gather(Slot& slot) const;
+  void hand_out(const SurfaceChunk& chunk, const Take& take);
+
+  const EditStore& store;
+  ChunkOptions options;
+  Volume volume;  ///< as the extractor sees it: of native samples, and as large as they can be
+  bool is_sparse;
+  pipe::ChunkGrid grid;
+  std::vector<Slot> slots;
+  std::vector<Index3> ids;  ///< to be made
+  std::unordered_map<Index3, Counts, IdHash> known;
+  ChunkSums sums;
+};
+
+namespace {
+
+/// The samples that there are: of a sparse volume, all that have an index.
+IndexBox samples_of(const Volume& volume, bool is_sparse, const ExtractOptions& options) {
+  return options.region.value_or(is_sparse ? extraction::kAllSamples : volume.lattice.box);
+}
+
+Volume seen_by_engine(const EditStore& store, bool is_sparse, const ExtractOptions& options) {
+  Volume volume = store.volume();
+  volume.lattice.box = samples_of(volume, is_sparse, options);
+  volume.endian = std::endian::native;
+  return volume;
+}
+
+bool stays_sparse(const EditStore& store) {
+  return std::holds_alternative<std::unique_ptr<LeafReader>>(store.reader());
+}
+
+}  // namespace
+
+ChunkMesher::State::State(const EditStore& edited, const ChunkOptions& chosen)
+    : store(edited),
+      options(checked(chosen)),
+      volume(),
+      is_sparse(stays_sparse(edited)),
+      grid({}, false, chosen.n_cells, 0) {
+  // Without a region a sparse volume has no border.
+  if (is_sparse && !options.extract.region) options.extract.border = Border::open;
+  volume = seen_by_engine(store, is_sparse, options.extract);
+  grid = pipe::ChunkGrid(volume.lattice.box, options.extract.border != Border::open,
+                         options.n_cells, options.extract.normals != Normals::none ? 1 : 0);
+}
+
+/// Lists the chunks that hold a cell of the surface, and those that did when they were made last.
+void ChunkMesher::State::list_surface() {
+  const VolumeReader reader = store.reader();
+  const extraction::SparsePlan plan(*std::get<std::unique_ptr<LeafReader>>(reader),
+                                    options.extract);
+  ids.clear();
+  for (const extraction::SurfaceBlock& block : plan.blocks()) {
+    const Index3 id = grid.chunk_of({block.at[0] * 8, block.at[1] * 8, block.at[2] * 8});
+    if (ids.empty() || ids.back() != id) ids.push_back(id);
+  }
+  for (const auto& [id, counts] : known) ids.push_back(id);
+  pipe::sort_unique(ids);
+}
+
+void ChunkMesher::State::list_all() {
+  if (is_sparse) return list_surface();
+  ids.clear();
+  pipe::append_all(grid.chunks(), ids);
+}
+
+void ChunkMesher::State::list_reached(std::span<const IndexBox> dirty) {
+  ids.clear();
+  for (const IndexBox& samples : dirty) {
+    const IndexBox reached = grid.reached(samples);
+    if (is_sparse && pipe::count_of(reached) + ids.size() > kManyChunks) {
+      list_surface();
+      std::erase_if(ids, [&](const Index3& id) {
+        return std::ranges::none_of(
+            dirty, [&](const IndexBox& box) { return grid.reached(box).contains(id); });
+      });
+      return;
+    }
+    pipe::append_all(reached, ids);
+  }
+  if (dirty.size() > 1) pipe::sort_unique(ids);
+}
+
+/// Copies the samples that the slot's part is made of.
+void ChunkMesher::State::gather(Slot& slot) const {
+  const IndexBox& box = slot.extractor.samples();
+  const auto extent = [&](int axis) { return static_cast<std::size_t>(box.extent(axis)); };
+  Slab& slab = slot.slab;
+  slab.i0 = box.lo[0];
+  slab.j0 = box.lo[1];
+  slab.k0 = box.lo[2];
+  slab.row_stride_bytes = extent(0) * sample_size(volume.type);
+  const std::size_t plane_bytes = slab.row_stride_bytes * extent(1);
+  slab.storage.resize(plane_bytes * extent(2));
+  slab.planes.resize(extent(2));
+  for (std::size_t k = 0; k < slab.planes.size(); ++k) {
+    slab.planes[k] = slab.storage.data() + k * plane_bytes;
+  }
+  store.read_box(box, slab.storage);
+}
+
+void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
+  slot.extractor.set_part(grid.part(id));
+  gather(slot);
+  SurfaceChunk& chunk = slot.chunk;
+  slot.extractor.extract(slot.slab, 0, slot.extractor.n_layers(), chunk.mesh, slot.totals);
+  pipe::TotalsSum sum(options.extract.measure);
+  sum.add(slot.totals);
+  chunk.id = id;
+  chunk.totals = sum.totals(options.extract.origin);
+}
+
+/// Enters a chunk that was made, and hands it out if it has a surface or had one.
+void ChunkMesher::State::hand_out(const SurfaceChunk& chunk, const Take& take) {
+  const Counts counts{chunk.totals.n_vertices, chunk.totals.n_triangles};
+  const auto before = known.find(chunk.id);
+  if (before != known.end()) {
+    --sums.n_chunks;
+    sums.n_vertices -= before->second.n_vertices;
+    sums.n_triangles -= before->second.n_triangles;
+  }
+  if (counts.n_triangles == 0) {
+    if (before == known.end()) return;
+    known.erase(before);
+  } else {
+    ++sums.n_chunks;
+    sums.n_vertices += counts.n_vertices;
+    sums.n_triangles += counts.n_triangles;
+    known.insert_or_assign(chunk.id, counts);
+  }
+  take(chunk);
+}
+
+void ChunkMesher::State::remake(const Take& take) {
+  const std::size_t n_slots = std::min(base::pipeline_slots(), ids.size());
+  while (slots.size() < n_slots) {
+    const Affine& to_world = options.to_world ? *options.to_world : volume.lattice.to_world;
+    slots.push_back({{volume, to_world, options.extract, grid.part(ids[0])}, {}, {}, {}});
+  }
+  struct Run {
+    State& state;
+    const Take& take;
+  } run{*this, take};
+  const std::array<base::Step, 2> steps{{
+      {false,
+       [&run](std::size_t n, std::size_t slot) {
+         run.state.make(run.state.ids[n], run.state.slots[slot]);
+       }},
+      {true,
+       [&run](std::size_t /*n*/, std::size_t slot) {
+         run.state.hand_out(run.state.slots[slot].chunk, run.take);
+       }},
+  }};
+  base::pipeline(ids.size(), n_slots, steps);
+}
+
+ChunkMesher::ChunkMesher(const EditStore& store, const ChunkOptions& options)
+    : state_(std::make_unique<State>(store, options)) {}
+ChunkMesher::~ChunkMesher() = default;
+ChunkMesher::ChunkMesher(ChunkMesher&& other) noexcept = default;
+ChunkMesher& ChunkMesher::operator=(ChunkMesher&& other) noexcept = default;
+
+void ChunkMesher::build(const Take& take) {
+  state_->list_all();
+  state_->remake(take);
+}
+
+void ChunkMesher::update(std::span<const IndexBox> dirty, const Take& take) {
+  state_->list_reached(dirty);
+  state_->remake(take);
+}
+
+bool ChunkMesher::has_surface(const Index3& id) const { return state_->known.contains(id); }
+const ChunkSums& ChunkMesher::sums() const { return state_->sums; }
+
+}  // namespace mc
