@@ -62,5 +62,6 @@ void add_classification();
 void add_cells();
 void add_vertices();
 void add_noises();
+void add_chunks();
 
 }  // namespace mc::bench

@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
   mc::bench::add_cells();
   mc::bench::add_vertices();
   mc::bench::add_noises();
+  mc::bench::add_chunks();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
