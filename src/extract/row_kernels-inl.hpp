@@ -24,10 +24,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids) {
   for (std::size_t j = 0; j < plane.n_rows; ++j) {
     ids.i[j] = next;
-    next += count_row(AlongRow{plane.row(j), plane.cells}, plane.words_per_row);
+    next += count_row(AlongRow{plane.row(j), plane.cells}, plane.words_in_use());
     ids.j[j] = next;
     if (j + 1 < plane.n_rows) {
-      next += count_row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_per_row);
+      next += count_row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_in_use());
     }
   }
   return next;
@@ -37,7 +37,7 @@ std::uint32_t number_between(const BitPlane& lower, const BitPlane& upper, std::
                              std::uint32_t* k_ids) {
   for (std::size_t j = 0; j < lower.n_rows; ++j) {
     k_ids[j] = next;
-    next += count_row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row);
+    next += count_row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_in_use());
   }
   return next;
 }
@@ -84,10 +84,10 @@ std::size_t list_plane(const BitPlane& plane, std::size_t j, std::size_t j_end, 
   EdgeLister lister(list);
   for (; j < j_end && lister.has_room(list_room(plane.n_samples)); ++j) {
     ids.i[j] = next + lister.n();
-    lister.row(AlongRow{plane.row(j), plane.cells}, plane.words_per_row, j, 0);
+    lister.row(AlongRow{plane.row(j), plane.cells}, plane.words_in_use(), j, 0);
     ids.j[j] = next + lister.n();
     if (j + 1 < plane.n_rows) {
-      lister.row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_per_row, j, 1);
+      lister.row(BetweenRows{plane.row(j), plane.row(j + 1)}, plane.words_in_use(), j, 1);
     }
   }
   list.n = lister.n();
@@ -101,7 +101,7 @@ std::size_t list_between(const BitPlane& lower, const BitPlane& upper, std::size
   EdgeLister lister(list);
   for (; j < j_end && lister.has_room(list_room(lower.n_samples)); ++j) {
     k_ids[j] = next + lister.n();
-    lister.row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_per_row, j, 2);
+    lister.row(BetweenRows{lower.row(j), upper.row(j)}, lower.words_in_use(), j, 2);
   }
   list.n = lister.n();
   next += lister.n();
@@ -113,7 +113,7 @@ std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
   for (std::size_t j = 0; j + 1 < lower.n_rows; ++j) {
     const std::uint64_t* const rows[4] = {lower.row(j), lower.row(j + 1), upper.row(j),
                                           upper.row(j + 1)};
-    for_each_word(ActiveCells{rows, lower.cells}, lower.words_per_row,
+    for_each_word(ActiveCells{rows, lower.cells}, lower.words_in_use(),
                   [&](std::size_t w, std::uint64_t active) {
                     const CornerWords corners(rows, w);
                     for (; active != 0; active &= active - 1) {

@@ -22,6 +22,8 @@ struct BitPlane {
   std::size_t n_rows = 0;
 
   [[nodiscard]] const std::uint64_t* row(std::size_t j) const { return words + j * words_per_row; }
+  /// Words of a row worth looking at: one, where that is all, else whole vectors.
+  [[nodiscard]] std::size_t words_in_use() const { return n_samples <= 64 ? 1 : words_per_row; }
 };
 
 /// Ids that follow from the number of crossed edges: of the first i- and the first j-vertex of each

@@ -34,10 +34,19 @@ inline WordVector load_next(const std::uint64_t* row, std::size_t w) {
                 hn::ShiftLeft<63>(hn::LoadU(d, row + w + 1)));
 }
 
-/// The crossed i-edges of a row, and the crossed edges from one row to another.
+/// One such word.
+inline std::uint64_t next_word(const std::uint64_t* row, std::size_t w) {
+  return row[w] >> 1 | row[w + 1] << 63;
+}
+
+/// The crossed i-edges of a row, and the crossed edges from one row to another: by vectors of
+/// words, or one word alone.
 struct AlongRow {
   const std::uint64_t* row;
   const std::uint64_t* cells;
+  [[nodiscard]] std::uint64_t word(std::size_t w) const {
+    return (row[w] ^ next_word(row, w)) & cells[w];
+  }
   [[nodiscard]] WordVector at(std::size_t w) const {
     const Words d;
     return hn::And(hn::Xor(hn::LoadU(d, row + w), load_next(row, w)), hn::LoadU(d, cells + w));
@@ -46,15 +55,21 @@ struct AlongRow {
 struct BetweenRows {
   const std::uint64_t* a;
   const std::uint64_t* b;
+  [[nodiscard]] std::uint64_t word(std::size_t w) const { return a[w] ^ b[w]; }
   [[nodiscard]] WordVector at(std::size_t w) const {
     const Words d;
     return hn::Xor(hn::LoadU(d, a + w), hn::LoadU(d, b + w));
   }
 };
 
-/// Calls f(w, word) for the words of a row that are not zero, lowest first.
+/// Calls f(w, word) for the words of a row that are not zero, lowest first. `n_words` is 1 or a
+/// multiple of kWordsAtOnce: see BitPlane::words_in_use().
 template <class Source, class F>
 HWY_INLINE void for_each_word(const Source& source, std::size_t n_words, F&& f) {
+  if (n_words == 1) {
+    if (const std::uint64_t word = source.word(0); word != 0) f(std::size_t{0}, word);
+    return;
+  }
   const Words d;
   for (std::size_t first = 0; first < n_words; first += hn::Lanes(d)) {
     const WordVector v = source.at(first);
@@ -83,6 +98,16 @@ HWY_INLINE std::uint32_t count_row(const Source& source, std::size_t n_words) {
 struct ActiveCells {
   const std::uint64_t* const* rows;
   const std::uint64_t* cells;
+  [[nodiscard]] std::uint64_t word(std::size_t w) const {
+    std::uint64_t any = 0;
+    std::uint64_t all = ~std::uint64_t{0};
+    for (std::size_t r = 0; r < 4; ++r) {
+      const std::uint64_t next = next_word(rows[r], w);
+      any |= rows[r][w] | next;
+      all &= rows[r][w] & next;
+    }
+    return any & ~all & cells[w];
+  }
   [[nodiscard]] WordVector at(std::size_t w) const {
     const Words d;
     WordVector any = hn::Zero(d);
@@ -104,7 +129,7 @@ struct CornerWords {
   CornerWords(const std::uint64_t* const rows[4], std::size_t w) {
     for (std::size_t r = 0; r < 4; ++r) {
       at[2 * r] = rows[r][w];
-      at[2 * r + 1] = (rows[r][w] >> 1) | (rows[r][w + 1] << 63);
+      at[2 * r + 1] = next_word(rows[r], w);
     }
   }
   [[nodiscard]] unsigned cell_case(unsigned bit) const {

@@ -237,7 +237,7 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
       const CellRow row{{lower.row(j), lower.row(j + 1), upper.row(j), upper.row(j + 1)},
                         lower.cells,
                         ids + (j - begin) * kEdgeRows};
-      out = emitter.emit(row, lower.words_per_row, out);
+      out = emitter.emit(row, lower.words_in_use(), out);
     }
   }
   return static_cast<std::size_t>(out - first);
