@@ -162,6 +162,16 @@ void for_blocks_of(const IndexBox& box, F&& f) {
   }
 }
 
+/// Copies n_rows of kRowBytes, or of row_bytes where that is 0: a size that the compiler knows is a
+/// move or two.
+template <std::size_t kRowBytes>
+void copy_rows(const std::byte* from, std::size_t from_stride, std::byte* to, std::size_t to_stride,
+               std::size_t row_bytes, std::size_t n_rows) {
+  for (std::size_t row = 0; row < n_rows; ++row, from += from_stride, to += to_stride) {
+    std::memcpy(to, from, kRowBytes != 0 ? kRowBytes : row_bytes);
+  }
+}
+
 /// Copies what a block and a box have in common into the box's samples, x fastest.
 inline void copy_from_block(const Index3& block, const std::byte* samples, std::size_t sample_bytes,
                             const IndexBox& box, std::byte* out) {
@@ -169,15 +179,17 @@ inline void copy_from_block(const Index3& block, const std::byte* samples, std::
   const Index3 from = origin_of(block);
   const auto size = [](std::int64_t v) { return static_cast<std::size_t>(v); };
   const std::size_t row_bytes = size(part.extent(0)) * sample_bytes;
+  const std::size_t block_row = kSide * sample_bytes;
+  const std::size_t box_row = size(box.extent(0)) * sample_bytes;
+  const auto copy = row_bytes == 32  ? &copy_rows<32>
+                    : row_bytes == 8 ? &copy_rows<8>
+                                     : &copy_rows<0>;
   for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
-    for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
-      const std::size_t in =
-          size((k - from[2]) * kSide + (j - from[1])) * kSide + size(part.lo[0] - from[0]);
-      const std::size_t to =
-          (size(k - box.lo[2]) * size(box.extent(1)) + size(j - box.lo[1])) * size(box.extent(0)) +
-          size(part.lo[0] - box.lo[0]);
-      std::memcpy(out + to * sample_bytes, samples + in * sample_bytes, row_bytes);
-    }
+    const std::size_t in = size(k - from[2]) * kSide + size(part.lo[1] - from[1]);
+    const std::size_t to = size(k - box.lo[2]) * size(box.extent(1)) + size(part.lo[1] - box.lo[1]);
+    copy(samples + in * block_row + size(part.lo[0] - from[0]) * sample_bytes, block_row,
+         out + to * box_row + size(part.lo[0] - box.lo[0]) * sample_bytes, box_row, row_bytes,
+         size(part.extent(1)));
   }
 }
 
