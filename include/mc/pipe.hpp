@@ -57,7 +57,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
 struct ChunkOptions {
   ExtractOptions extract;
   std::optional<Affine> to_world;  ///< instead of the volume's own
-  std::int32_t n_cells = 32;       ///< along a chunk's edge: a power of two from 8 to 256
+  std::int32_t n_cells = 16;       ///< along a chunk's edge: a power of two from 8 to 256
 };
 
 /// The surface in a cube of cells: what remains of the whole volume's without the other cells.
