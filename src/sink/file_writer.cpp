@@ -120,6 +120,15 @@ void FileWriter::skip(std::uint64_t n_bytes) {
   flushed_ += n_bytes;
 }
 
+void FileWriter::truncate(std::uint64_t n_bytes) {
+  assert(offsets_ && n_bytes <= size());
+  flush();
+  while (::ftruncate(fd_, static_cast<off_t>(n_bytes)) != 0) {
+    if (errno != EINTR) cannot("cut", place_);
+  }
+  flushed_ = n_bytes;
+}
+
 void FileWriter::read(std::uint64_t offset, std::span<std::byte> bytes) {
   flush();
   read_flushed(offset, bytes);

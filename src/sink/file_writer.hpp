@@ -43,6 +43,8 @@ class FileWriter {
   /// The same from any thread, where the buffer holds nothing for these bytes' place.
   void put_at(std::uint64_t offset, std::span<const std::byte> bytes) const;
   void skip(std::uint64_t n_bytes);
+  /// Takes away what lies behind `n_bytes`.
+  void truncate(std::uint64_t n_bytes);
   void read(std::uint64_t offset, std::span<std::byte> bytes);
   /// The same from any thread, where nothing is left in the buffer.
   void read_flushed(std::uint64_t offset, std::span<std::byte> bytes) const;

@@ -2,14 +2,16 @@
 """Opens what mc writes in programs that know nothing of ours.
 
     readers.py assimp|vtk MC
-    readers.py gltf-validator MC SCRIPT MODULES
+    readers.py gltf-validator MC SCRIPT MODULES TESTS
 
 Extracts a small terrain and a ball to every mesh format and compares the counts that assimp or VTK
 find with those mc reports; or runs the Khronos glTF validator through SCRIPT, for node, with the npm
-packages in MODULES/node_modules. A reader that is not installed is a skip, said aloud.
+packages in MODULES/node_modules, also against a glTF in many small parts that the unit tests TESTS
+write. A reader that is not installed is a skip, said aloud.
 """
 
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -99,19 +101,30 @@ def compare(counts, mc, folder):
                     print(f"{name}.{suffix} {options}: {got[0]} vertices, {got[1]} triangles")
 
 
-def validate(mc, script, modules, folder):
+def validate(mc, script, modules, tests, folder):
     """What the Khronos validator says against our glTF."""
+
+    def said_of(path, options):
+        done = subprocess.run(
+            ["node", script, "--modules", modules, path], capture_output=True, text=True, check=False
+        )
+        print(f"{path.name} {options}: {done.stdout.strip()[:2000]}")
+        if done.returncode != 0:
+            yield f"{path.name} {options}: status {done.returncode} {done.stderr}"
+
+    subprocess.run(
+        [tests, "--gtest_filter=GltfParts.AreThereForReaders"],
+        env={**os.environ, "MC_TEST_PARTS": str(folder)},
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+    yield from said_of(folder / "parts.gltf", "in parts")
     for name, spec in write_specs(folder):
         for suffix in ("glb", "gltf"):
             for options in ([], ["--normals", "none"]):
                 path = folder / f"{name}.{suffix}"
                 extract(mc, spec, path, *options)
-                done = subprocess.run(
-                    ["node", script, "--modules", modules, path], capture_output=True, text=True, check=False
-                )
-                print(f"{path.name} {options}: {done.stdout.strip()[:2000]}")
-                if done.returncode != 0:
-                    yield f"{path.name} {options}: status {done.returncode} {done.stderr}"
+                yield from said_of(path, options)
 
 
 def missing(reader, arguments):

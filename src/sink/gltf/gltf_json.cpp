@@ -48,7 +48,7 @@ tinygltf::Accessor accessor(int of_view, std::size_t at, std::uint64_t count, in
   return made;
 }
 
-/// Appends views, accessors and mesh of one object; returns the mesh.
+/// Appends views, accessors and primitive of one object, or part of one; returns the mesh.
 int add_mesh(tinygltf::Model& model, const GltfObject& object) {
   const int views = static_cast<int>(model.bufferViews.size());
   const int accessors = static_cast<int>(model.accessors.size());
@@ -56,6 +56,9 @@ int add_mesh(tinygltf::Model& model, const GltfObject& object) {
                                    object.vertex_bytes(), TINYGLTF_TARGET_ARRAY_BUFFER));
   model.bufferViews.push_back(view(object.indices_at, object.n_indices * object.index_bytes(), 0,
                                    TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER));
+  for (std::size_t n = model.bufferViews.size() - 2; n < model.bufferViews.size(); ++n) {
+    model.bufferViews[n].buffer = static_cast<int>(object.buffer);
+  }
   tinygltf::Accessor positions =
       accessor(views, 0, object.n_vertices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
   positions.minValues.assign(object.lo.begin(), object.lo.end());
@@ -76,9 +79,8 @@ int add_mesh(tinygltf::Model& model, const GltfObject& object) {
   }
   primitive.material = 0;
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
-  tinygltf::Mesh mesh;
-  mesh.primitives.push_back(primitive);
-  model.meshes.push_back(mesh);
+  if (!object.continues) model.meshes.emplace_back();
+  model.meshes.back().primitives.push_back(primitive);
   return static_cast<int>(model.meshes.size()) - 1;
 }
 
@@ -98,6 +100,10 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
   model.defaultScene = 0;
   tinygltf::Scene scene;
   for (const GltfObject& object : objects) {
+    if (object.continues) {
+      add_mesh(model, object);
+      continue;
+    }
     tinygltf::Node node;
     node.name = object.name.empty() ? "object" : utf8(object.name);  // never a node of nothing
     if (object.origin != Vec3{}) {
@@ -120,7 +126,7 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
 
 }  // namespace
 
-std::string gltf_json(std::span<const GltfObject> objects, const GltfBuffer& buffer,
+std::string gltf_json(std::span<const GltfObject> objects, std::span<const GltfBuffer> buffers,
                       std::span<const std::pair<std::string, std::string>> provenance) {
   const GltfObject nothing;  // a scene must have a node
   const tinygltf::Model model =
@@ -129,16 +135,18 @@ std::string gltf_json(std::span<const GltfObject> objects, const GltfBuffer& buf
   tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, text, false, false);
   Json json = Json::parse(text);
   if (!model.buffers.empty()) {
-    Json& made = json["buffers"][0];
-    made = Json{{"byteLength", buffer.n_bytes}};
-    if (!buffer.uri.empty()) {
-      made["uri"] = buffer.uri;
+    Json& made = json["buffers"] = Json::array();
+    for (const GltfBuffer& buffer : buffers) {
+      made.push_back(Json{{"byteLength", buffer.n_bytes}});
+      if (!buffer.uri.empty()) {
+        made.back()["uri"] = buffer.uri;
+      }
     }
   }
   for (const auto& [key, value] : provenance) {
     json["asset"]["extras"][utf8(key)] = utf8(value);
   }
-  return buffer.uri.empty() ? json.dump() : json.dump(2) + "\n";
+  return buffers.front().uri.empty() ? json.dump() : json.dump(2) + "\n";
 }
 
 }  // namespace mc::sink

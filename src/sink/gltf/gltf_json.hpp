@@ -14,7 +14,7 @@
 
 namespace mc::sink {
 
-/// One object of the buffer: interleaved positions and normals, then its indices.
+/// One object of a buffer, or the part of one: interleaved positions and normals, then its indices.
 struct GltfObject {
   std::string name;
   Vec3 origin{};
@@ -22,6 +22,8 @@ struct GltfObject {
   std::uint64_t n_vertices = 0, n_indices = 0;
   std::uint64_t vertices_at = 0, indices_at = 0;  ///< bytes from the buffer's start
   std::array<float, 3> lo{}, hi{};                ///< of the positions as stored
+  std::size_t buffer = 0;                         ///< number of the one it lies in
+  bool continues = false;                         ///< a further primitive of the object before
 
   [[nodiscard]] std::uint64_t vertex_bytes() const { return has_normals ? 24 : 12; }
   /// The greatest index a type holds is reserved.
@@ -29,15 +31,15 @@ struct GltfObject {
   [[nodiscard]] std::uint64_t index_bytes() const { return has_short_indices() ? 2 : 4; }
 };
 
-/// The buffer: its length, and the file that holds it (percent-encoded; empty for a GLB).
+/// A buffer: its length, and the file that holds it (percent-encoded; empty for a GLB).
 struct GltfBuffer {
   std::uint64_t n_bytes = 0;
   std::string uri = {};
 };
 
 /// The whole JSON text, one line for a GLB, indented otherwise. An object without triangles is a
-/// node without mesh; without any, there is no buffer.
-std::string gltf_json(std::span<const GltfObject> objects, const GltfBuffer& buffer,
+/// node without mesh; without any, there are no buffers.
+std::string gltf_json(std::span<const GltfObject> objects, std::span<const GltfBuffer> buffers,
                       std::span<const std::pair<std::string, std::string>> provenance);
 
 }  // namespace mc::sink

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "sink/gltf/gltf_json.hpp"
+#include "sink/gltf/gltf_parts.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
 #include "sink/part.hpp"
@@ -28,6 +29,7 @@ namespace mc::sink {
 namespace {
 
 constexpr std::uint64_t kMostGlbBytes = 0xFFFFFFFF;
+constexpr std::uint64_t kMostBinBytes = 0xFFFFFFFC;  // readers count them in 32 bits
 constexpr std::uint64_t kMostVertices = 0xFFFFFFFF;  // index 0xFFFFFFFF is reserved
 constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
 
@@ -49,11 +51,12 @@ std::string percent_encoded(std::string_view name) {
   return uri;
 }
 
-/// "a/b.gltf" -> "a/b.bin"; another extension stays and ".bin" is added.
-std::string bin_path(const std::string& path) {
+/// "a/b.gltf" -> "a/b.bin", then "a/b-2.bin" ...; another extension stays and ".bin" is added.
+std::string bin_path(const std::string& path, std::size_t n_before) {
   constexpr std::string_view kExtension = ".gltf";
+  const std::string number = n_before == 0 ? "" : "-" + std::to_string(n_before + 1);
   return (path.ends_with(kExtension) ? path.substr(0, path.size() - kExtension.size()) : path) +
-         ".bin";
+         number + ".bin";
 }
 
 /// 32 bits, little endian.
@@ -72,7 +75,9 @@ std::array<float, 3> filled(float x) { return {x, x, x}; }
 
 class GltfSink final : public MeshSink {
  public:
-  GltfSink(const std::string& path, const SinkOptions& options, bool is_glb);
+  /// Without `most_bin_bytes`: a GLB.
+  GltfSink(const std::string& path, const SinkOptions& options,
+           std::optional<std::uint64_t> most_bin_bytes);
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
@@ -90,6 +95,9 @@ class GltfSink final : public MeshSink {
   void shorten_spooled_indices();
   void finish_glb();
   void finish_gltf();
+  OutputFile& add_bin();
+  void spread_over_bins();
+  void note_parts() const;
   void pad_body();
   /// The file that the buffer goes into.
   [[nodiscard]] FileWriter& body_file();
@@ -102,12 +110,14 @@ class GltfSink final : public MeshSink {
 
   SinkOptions options_;
   bool is_glb_;
-  OutputFile main_;                // the GLB, or the JSON
-  std::optional<OutputFile> bin_;  // glTF only
-  std::optional<SpoolFile> body_;  // the buffer, for a GLB to a stream
-  std::uint64_t body_at_ = 0;      // where the buffer starts in its file
+  std::uint64_t most_bin_bytes_;
+  OutputFile main_;                                // the GLB, or the JSON
+  std::vector<std::unique_ptr<OutputFile>> bins_;  // glTF only
+  std::optional<SpoolFile> body_;                  // the buffer, for a GLB to a stream
+  std::uint64_t body_at_ = 0;                      // where the buffer starts in its file
   std::uint64_t json_room_ = 0;
   std::vector<GltfObject> objects_;
+  std::uint64_t n_repeated_ = 0;  // vertices of parts beyond those of the objects
   MeshObject object_;
   ObjectCounts counts_;
   std::optional<SpoolFile> index_spool_;  // u32; unless their place and type are known
@@ -115,21 +125,31 @@ class GltfSink final : public MeshSink {
   std::vector<Slot> slots_{1};
 };
 
-GltfSink::GltfSink(const std::string& path, const SinkOptions& options, bool is_glb)
-    : options_(options), is_glb_(is_glb), main_(path, output_options(options, is_glb)) {
-  if (!is_glb) {
+GltfSink::GltfSink(const std::string& path, const SinkOptions& options,
+                   std::optional<std::uint64_t> most_bin_bytes)
+    : options_(options),
+      is_glb_(!most_bin_bytes),
+      most_bin_bytes_(most_bin_bytes.value_or(0)),
+      main_(path, output_options(options, is_glb_)) {
+  if (!is_glb_) {
     if (!main_.seekable()) {
       throw Error(ErrorKind::usage, main_.place(),
                   "glTF is two files and cannot be written to a stream", "use --to glb");
     }
-    bin_.emplace(bin_path(path), output_options(options, true));
+    add_bin();
   } else if (!main_.seekable()) {
     body_.emplace(main_);
   }
 }
 
+OutputFile& GltfSink::add_bin() {
+  bins_.push_back(std::make_unique<OutputFile>(bin_path(main_.place(), bins_.size()),
+                                               output_options(options_, true)));
+  return *bins_.back();
+}
+
 FileWriter& GltfSink::body_file() {
-  return body_ ? body_->writer() : (bin_ ? *bin_ : main_).writer();
+  return body_ ? body_->writer() : (is_glb_ ? main_ : *bins_.back()).writer();
 }
 
 std::uint64_t GltfSink::body_size() { return body_file().size() - body_at_; }
@@ -147,7 +167,7 @@ void GltfSink::reserve_json(const GltfObject& first) {
   widest.lo.fill(std::numeric_limits<float>::lowest());
   widest.hi.fill(std::numeric_limits<float>::lowest());
   json_room_ =
-      aligned(gltf_json({&widest, 1}, {.n_bytes = kMostGlbBytes}, options_.provenance).size());
+      aligned(gltf_json({&widest, 1}, {{{.n_bytes = kMostGlbBytes}}}, options_.provenance).size());
   if (!body_) {
     body_at_ = kFileHeader + kChunkHeader + json_room_ + kChunkHeader;
     main_.skip(body_at_);
@@ -190,6 +210,7 @@ void GltfSink::begin_object(const MeshObject& object) {
   }
   pad_body();
   made.vertices_at = body_size();
+  made.buffer = is_glb_ ? 0 : bins_.size() - 1;
   objects_.push_back(made);
   check_limits({object.n_vertices.value_or(0), object.n_triangles.value_or(0)});
   vertices_.emplace(body_file(), body_file().size());
@@ -295,11 +316,52 @@ void GltfSink::end_object(const MeshTotals& /*totals*/) {
   if (index_spool_) {
     take_spooled_indices();
   }
+  if (!is_glb_ && body_size() > most_bin_bytes_) {
+    spread_over_bins();
+  }
+}
+
+/// The last object does not fit into the file it was written to: it goes into the next, whole if it
+/// fits there, else in parts of a file each.
+void GltfSink::spread_over_bins() {
+  const GltfObject whole = objects_.back();
+  objects_.pop_back();
+  std::unique_ptr<OutputFile> from;
+  if (whole.vertices_at == 0) {  // its first part takes its place, by another partial file
+    from = std::move(bins_.back());
+    bins_.pop_back();
+  }
+  OutputFile& source = from ? *from : *bins_.back();
+  source.writer().flush();
+  const auto open = [&]() -> FileWriter& {
+    if (!bins_.empty() && bins_.back().get() != &source) {
+      bins_.back()->close();  // there may be more of them than a process may have open
+    }
+    return add_bin().writer();
+  };
+  cut_into_parts(source.writer(), whole, most_bin_bytes_, open, [&](const GltfObject& part) {
+    objects_.push_back(part);
+    objects_.back().buffer = bins_.size() - 1;
+    n_repeated_ += part.n_vertices;
+  });
+  n_repeated_ -= whole.n_vertices;
+  if (!from) {
+    source.writer().truncate(whole.vertices_at);
+  }
+}
+
+void GltfSink::note_parts() const {
+  if (bins_.size() > 1 && options_.progress != nullptr) {
+    options_.progress->warn(main_.place() + ": " + std::to_string(bins_.size()) +
+                            " .bin files, since one holds less than 4 GiB; vertices on their "
+                            "seams are there more than once: " +
+                            std::to_string(n_repeated_) + " more than the mesh has");
+  }
 }
 
 void GltfSink::finish_glb() {
   const std::uint64_t n_bytes = body_size();
-  std::string json = gltf_json(objects_, {.n_bytes = n_bytes}, options_.provenance);
+  std::string json = gltf_json(objects_, {{{.n_bytes = n_bytes}}}, options_.provenance);
   const std::uint64_t room = std::max(json_room_, aligned(json.size()));
   json.resize(static_cast<std::size_t>(room), ' ');
   const std::uint64_t bin_bytes = n_bytes == 0 ? 0 : kChunkHeader + aligned(n_bytes);
@@ -328,16 +390,21 @@ void GltfSink::finish_glb() {
 }
 
 void GltfSink::finish_gltf() {
-  const std::string bin = bin_path(main_.place());
-  const std::string uri = percent_encoded(bin.substr(bin.rfind('/') + 1));
-  const std::uint64_t n_bytes = bin_->size();
-  main_.append(gltf_json(objects_, {.n_bytes = n_bytes, .uri = uri}, options_.provenance));
-  if (n_bytes == 0) {
-    bin_.reset();
-    main_.commit();
-  } else {
-    OutputFile::commit_all({&*bin_, &main_});
+  std::vector<GltfBuffer> buffers;
+  std::vector<OutputFile*> files;
+  for (const auto& bin : bins_) {
+    const std::string& path = bin->place();
+    buffers.push_back({bin->size(), percent_encoded(path.substr(path.rfind('/') + 1))});
+    files.push_back(bin.get());
   }
+  main_.append(gltf_json(objects_, buffers, options_.provenance));
+  if (bins_.front()->size() == 0) {
+    bins_.clear();
+    files.clear();
+  }
+  files.push_back(&main_);
+  OutputFile::commit_all(files);
+  note_parts();
 }
 
 void GltfSink::finish() {
@@ -351,11 +418,16 @@ void GltfSink::finish() {
 }  // namespace
 
 std::unique_ptr<MeshSink> open_glb(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<GltfSink>(path, options, true);
+  return std::make_unique<GltfSink>(path, options, std::nullopt);
 }
 
 std::unique_ptr<MeshSink> open_gltf(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<GltfSink>(path, options, false);
+  return open_gltf_of(path, options, kMostBinBytes);
+}
+
+std::unique_ptr<MeshSink> open_gltf_of(const std::string& path, const SinkOptions& options,
+                                       std::uint64_t most_bytes) {
+  return std::make_unique<GltfSink>(path, options, most_bytes);
 }
 
 }  // namespace mc::sink
