@@ -109,7 +109,7 @@ void describe(const Writing& file, const SliceOf& slice) {
 void write_rows(const Writing& file, const Picture& picture) {
   const std::size_t size = sample_size(picture.type);
   const std::size_t row_bytes = static_cast<std::size_t>(picture.width) * size;
-  exr_encode_pipeline_t pipeline = EXR_ENCODE_PIPELINE_INITIALIZER;
+  exr_encode_pipeline_t pipeline{};  // all zeros, as EXR_ENCODE_PIPELINE_INITIALIZER
   std::int32_t lines = 0;
   exr_result_t result = ::exr_get_scanlines_per_chunk(file.get(), 0, &lines);
   for (std::int64_t y = 0; y < picture.height && result == EXR_ERR_SUCCESS; y += lines) {

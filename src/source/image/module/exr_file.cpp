@@ -67,7 +67,7 @@ class ChunkDecoder {
   int part_;
   int channel_;
   bool begun_ = false;
-  exr_decode_pipeline_t pipeline_ = EXR_DECODE_PIPELINE_INITIALIZER;
+  exr_decode_pipeline_t pipeline_{};  // all zeros, as EXR_DECODE_PIPELINE_INITIALIZER
   Buffer<std::byte> samples_;
 };
 
