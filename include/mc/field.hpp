@@ -35,6 +35,8 @@ struct Affine {
   [[nodiscard]] double determinant() const;
   /// The map that applies `first`, then this one.
   [[nodiscard]] Affine after(const Affine& first) const;
+  /// The map back; none where this one flattens space, or the map back overflows.
+  [[nodiscard]] std::optional<Affine> inverse() const;
   /// Length of the image of a unit step along `axis`.
   [[nodiscard]] double spacing(int axis) const;
   bool operator==(const Affine&) const = default;
@@ -187,6 +189,18 @@ struct FieldStatistics {
   std::vector<double> percentiles;  ///< in the order asked for
 };
 
+/// The port of materials: which of them is where in a volume.
+class MaterialReader {
+ public:
+  virtual ~MaterialReader() = default;
+  /// Fills `out` with the material's index at each of `places`, which are lattice coordinates, also
+  /// between samples and beyond them. Returns at how many the index is not what was asked for,
+  /// since that is no number of 16 bits: the nearest one then, or 0 for NaN.
+  /// Threads: may be called from several threads at once. A place's index depends on it alone.
+  virtual std::size_t materials_at(std::span<const Vec3> places,
+                                   std::span<std::uint16_t> out) const = 0;
+};
+
 /// The port of dense volumes.
 class SlabReader {
  public:
@@ -215,6 +229,8 @@ class SlabReader {
   /// Of a reader that reads_once(), after its last plane: counts and range of its samples; of them
   /// only a part where read_surface() met both sides of the surface.
   [[nodiscard]] virtual FieldStatistics seen() const { return {}; }
+  /// The volume's materials; null where it has none.
+  [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
 };
 
 /// A cube of equal samples, `size` a multiple of 8, `origin` a multiple of `size`.
@@ -245,11 +261,14 @@ class LeafReader {
   [[nodiscard]] virtual std::array<std::uint64_t, 8> leaf_active(std::size_t n) const = 0;
   /// Every tile whose value differs from the background or that is active, in any order.
   [[nodiscard]] virtual std::span<const Tile> tiles() const = 0;
+  /// The volume's materials; null where it has none.
+  [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
 };
 
 /// A volume of either kind.
 using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>>;
 [[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
+[[nodiscard]] const MaterialReader* materials_of(const VolumeReader& reader);
 
 /// The port by which volumes leave.
 class VolumeSink {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -37,6 +38,25 @@ Affine Affine::after(const Affine& first) const {
   return out;
 }
 
+std::optional<Affine> Affine::inverse() const {
+  const auto cofactor = [&](std::size_t row, std::size_t column) {
+    const auto at = [&](std::size_t r, std::size_t c) {
+      return m[4 * ((row + r) % 3) + (column + c) % 3];
+    };
+    return at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1);
+  };
+  const double size = (m[0] * cofactor(0, 0) + m[1] * cofactor(0, 1)) + m[2] * cofactor(0, 2);
+  Affine out;
+  for (std::size_t r = 0; r < 3; ++r) {
+    double* row = &out.m[4 * r];
+    for (std::size_t c = 0; c < 3; ++c) row[c] = cofactor(c, r) / size;
+    row[3] = -((row[0] * m[3] + row[1] * m[7]) + row[2] * m[11]);
+  }
+  const bool finite =
+      std::all_of(out.m.begin(), out.m.end(), [](double v) { return std::isfinite(v); });
+  return finite ? std::optional(out) : std::nullopt;
+}
+
 double Affine::spacing(int axis) const {
   const auto a = static_cast<std::size_t>(axis);
   return std::hypot(m[a], m[4 + a], m[8 + a]);
@@ -67,6 +87,10 @@ Index3 Lattice::dims() const {
 
 const Volume& volume_of(const VolumeReader& reader) {
   return std::visit([](const auto& port) -> const Volume& { return port->volume(); }, reader);
+}
+
+const MaterialReader* materials_of(const VolumeReader& reader) {
+  return std::visit([](const auto& port) { return port->materials(); }, reader);
 }
 
 }  // namespace mc

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/checked.hpp"
+#include "field/box_reader.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
 
@@ -97,6 +98,33 @@ void fill_leaf(const Planes<T>& out, const Index3& origin, const std::byte* valu
       }
     }
   }
+}
+
+/// Memory for planes [k0, k1) of a volume, in a slab.
+void make_room(const Volume& volume, std::int32_t k0, std::int32_t k1, Slab& out) {
+  const auto nx = static_cast<std::size_t>(volume.lattice.box.extent(0));
+  const auto ny = static_cast<std::size_t>(volume.lattice.box.extent(1));
+  const auto n_planes = static_cast<std::size_t>(k1 - k0);
+  const std::size_t size = sample_size(volume.type);
+  const auto bytes = base::checked_mul(nx, ny, n_planes, size);
+  if (!bytes || *bytes > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
+    throw Error(ErrorKind::limit, volume.name, "planes of this size do not fit into memory",
+                "choose a smaller --region");
+  }
+  out.k0 = k0;
+  out.row_stride_bytes = nx * size;
+  out.storage.resize(*bytes);
+  out.planes.clear();
+  for (std::size_t n = 0; n < n_planes; ++n) {
+    out.planes.push_back(out.storage.data() + n * ny * out.row_stride_bytes);
+  }
+}
+
+/// Planes [k0, k1) of a box, counted from its first.
+IndexBox planes_of(IndexBox box, std::int32_t k0, std::int32_t k1) {
+  box.hi[2] = box.lo[2] + k1 - 1;
+  box.lo[2] += k0;
+  return box;
 }
 
 class DenseView final : public SlabReader {
@@ -193,26 +221,9 @@ void DenseView::fill(const IndexBox& planes, std::byte* samples) const {
 
 void DenseView::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
   assert(0 <= k0 && k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
-  const auto nx = static_cast<std::size_t>(box_.extent(0));
-  const auto ny = static_cast<std::size_t>(box_.extent(1));
-  const auto n_planes = static_cast<std::size_t>(k1 - k0);
-  const std::size_t size = sample_size(volume_.type);
-  const auto bytes = base::checked_mul(nx, ny, n_planes, size);
-  if (!bytes || *bytes > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
-    throw Error(ErrorKind::limit, volume_.name, "planes of this size do not fit into memory",
-                "choose a smaller --region");
-  }
-  out.k0 = k0;
-  out.row_stride_bytes = nx * size;
-  out.planes.clear();
-  if (n_planes == 0) return;
-  out.storage.resize(*bytes);
-  for (std::size_t n = 0; n < n_planes; ++n) {
-    out.planes.push_back(out.storage.data() + n * ny * out.row_stride_bytes);
-  }
-  IndexBox planes = box_;
-  planes.lo[2] = box_.lo[2] + k0;
-  planes.hi[2] = box_.lo[2] + k1 - 1;
+  make_room(volume_, k0, k1, out);
+  if (k0 == k1) return;
+  const IndexBox planes = planes_of(box_, k0, k1);
   field::visit_type(volume_.type, [&]<class T>(field::TypeTag<T>) {
     fill<typename field::Bits<sizeof(T)>::type>(planes, out.storage.data());
   });
@@ -228,6 +239,12 @@ class CropView final : public SlabReader {
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
+    if (const auto* boxes = dynamic_cast<const field::BoxReader*>(&whole_)) {
+      make_room(volume_, k0, k1, out);
+      out.sides.clear();
+      if (k0 != k1) boxes->read_box(planes_of(box_, k0, k1), out.storage);
+      return;
+    }
     whole_.read(k0 + box_.lo[2], k1 + box_.lo[2], out);
     out.k0 = k0;
     const std::size_t skip = static_cast<std::size_t>(box_.lo[1]) * out.row_stride_bytes +

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "field/box_reader.hpp"
+
 namespace mc::source {
 
 namespace {
 
-class PlacedReader final : public SlabReader {
+class PlacedReader final : public SlabReader, public field::BoxReader {
  public:
   PlacedReader(std::unique_ptr<SlabReader> reader, const SourceOptions& options)
       : reader_(std::move(reader)), volume_(reader_->volume()) {
@@ -19,11 +21,15 @@ class PlacedReader final : public SlabReader {
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
     reader_->read(k0, k1, out);
   }
+  void read_box(const IndexBox& box, std::span<std::byte> out) const override {
+    field::read_box(*reader_, box, out);
+  }
   void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
                     Slab& out) const override {
     reader_->read_surface(k0, k1, query, out);
   }
   [[nodiscard]] bool rereads_cheaply() const override { return reader_->rereads_cheaply(); }
+  [[nodiscard]] const MaterialReader* materials() const override { return reader_->materials(); }
 
  private:
   std::unique_ptr<SlabReader> reader_;

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "source/spec/placing.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "mc/field.hpp"
 
 namespace mc::source {
 
 namespace {
 
 double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// 1 + q/(first (first + 1)) (1 + q/((first + 2) (first + 3)) (1 + ...)): Taylor's series of sine
 /// over r (first = 2) and cosine (first = 1) at q = -r^2. Its rest is below 1e-17 for |r| <= pi/4.
@@ -80,18 +79,13 @@ Matrix3 product(const Matrix3& left, const Matrix3& right) {
 }
 
 std::optional<Matrix3> inverse_of(const Matrix3& m) {
-  const Matrix3 cofactors{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
-  const double determinant = dot(m[0], cofactors[0]);
-  Matrix3 inverse = transposed(cofactors);
-  for (Vec3& row : inverse) {
-    for (double& v : row) {
-      v = v / determinant;
-      if (!std::isfinite(v)) {
-        return std::nullopt;
-      }
-    }
-  }
-  return inverse;
+  Affine map;
+  for (std::size_t row = 0; row < 3; ++row) std::copy_n(m[row].begin(), 3, &map.m[4 * row]);
+  const std::optional<Affine> inverse = map.inverse();
+  if (!inverse) return std::nullopt;
+  Matrix3 out{};
+  for (std::size_t row = 0; row < 3; ++row) std::copy_n(&inverse->m[4 * row], 3, out[row].begin());
+  return out;
 }
 
 std::vector<float> placed(const Matrix3& m, const Vec3& from, const Vec3& to) {

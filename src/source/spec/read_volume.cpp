@@ -12,7 +12,6 @@
 
 #include "base/parallel.hpp"
 #include "field/visit_type.hpp"
-#include "source/spec/placing.hpp"
 
 // Volumes that nodes read, as dense float32.
 
@@ -48,20 +47,12 @@ void convert_slab(const Slab& slab, const Volume& volume, float* to) {
 
 Affine inverted(const Affine& to_world, const std::string& place) {
   constexpr double kMost = 1e100;  // what SampledVolume takes
-  const auto& m = to_world.m;
-  const auto inverse =
-      inverse_of({Vec3{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}});
-  Affine to_index;
-  for (std::size_t row = 0; inverse && row < 3; ++row) {
-    const Vec3& r = (*inverse)[row];
-    std::copy(r.begin(), r.end(), &to_index.m[4 * row]);
-    to_index.m[4 * row + 3] = -((r[0] * m[3] + r[1] * m[7]) + r[2] * m[11]);
-  }
+  const auto inverse = to_world.inverse();
   const auto small = [](double v) { return std::abs(v) <= kMost; };
-  if (!inverse || !std::all_of(to_index.m.begin(), to_index.m.end(), small)) {
+  if (!inverse || !std::all_of(inverse->m.begin(), inverse->m.end(), small)) {
     throw Error(ErrorKind::input, place, "its map from samples to the world cannot be inverted");
   }
-  return to_index;
+  return *inverse;
 }
 
 SampledVolume read_dense(const SlabReader& reader, const std::string& place) {

@@ -6,6 +6,7 @@
 #include <thread>
 #include <vector>
 
+#include "field/box_reader.hpp"
 #include "mc/field.hpp"
 #include "support/memory_readers.hpp"
 
@@ -170,6 +171,33 @@ TEST(CropView, PointsIntoTheWholeVolume) {
   crop->read(1, 2, of_crop);
   EXPECT_EQ(of_crop.planes[0],
             of_whole.planes[0] + of_whole.row_stride_bytes + 2 * sizeof(std::uint16_t));
+}
+
+/// Makes samples for every read, and so should not be asked for whole planes.
+class DearSlabs final : public SlabReader, public field::BoxReader {
+ public:
+  explicit DearSlabs(const MemorySlabs& slabs) : slabs_(slabs) {}
+
+  [[nodiscard]] const Volume& volume() const override { return slabs_.volume(); }
+  void read(std::int32_t, std::int32_t, Slab&) const override { ADD_FAILURE() << "all of a plane"; }
+  void read_box(const IndexBox& box, std::span<std::byte> out) const override {
+    field::read_box(slabs_, box, out);
+  }
+  [[nodiscard]] bool rereads_cheaply() const override { return false; }
+
+ private:
+  const MemorySlabs& slabs_;
+};
+
+TEST(CropView, AsksForItsBoxAloneWhereThatIsCheaper) {
+  const Index3 dims{9, 8, 6};
+  const auto samples = blocky<std::uint16_t>(dims, 5);
+  const MemorySlabs slabs(samples, dims);
+  const IndexBox box{{2, 1, 3}, {6, 7, 5}};
+  const DearSlabs dear(slabs);
+  const auto crop = crop_view(dear, box);
+  EXPECT_EQ(planes_of(*crop, 0, 3), naive(samples, dims, {0, 0, 0}, 0, box, 0, 3));
+  EXPECT_EQ(planes_of(*crop, 1, 2), naive(samples, dims, {0, 0, 0}, 0, box, 1, 2));
 }
 
 }  // namespace
