@@ -40,6 +40,7 @@ struct MeshTotals {
   /// Samples that dense slabs asked for, those between two slabs in both, and how many of them the
   /// source skipped because the surface was not near. Facts of the run, not of the mesh.
   std::uint64_t n_asked = 0, n_skipped = 0;
+  std::uint64_t n_materials_held = 0;  ///< vertices whose material's number was none of 16 bits
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
   [[nodiscard]] std::int64_t euler() const;
@@ -49,10 +50,11 @@ struct MeshTotals {
 /// vertex index_base + index of the whole mesh, which may lie in another chunk.
 struct MeshChunk {
   std::uint64_t index_base = 0;
-  Buffer<float> positions;        ///< x, y, z each; empty when double precision was asked for
-  Buffer<double> positions_f64;   ///< x, y, z each; only when double precision was asked for
-  Buffer<float> normals;          ///< x, y, z each, unit length; empty without normals
-  Buffer<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from outside
+  Buffer<float> positions;          ///< x, y, z each; empty when double precision was asked for
+  Buffer<double> positions_f64;     ///< x, y, z each; only when double precision was asked for
+  Buffer<float> normals;            ///< x, y, z each, unit length; empty without normals
+  Buffer<std::uint16_t> materials;  ///< an index each; empty without materials
+  Buffer<std::uint32_t> indices;    ///< three a triangle, counter-clockwise seen from outside
 
   [[nodiscard]] std::size_t n_vertices() const {
     return (positions.size() + positions_f64.size()) / 3;
@@ -66,6 +68,7 @@ struct MeshObject {
   std::string name;  ///< "iso 0.5", or the grid's name
   double iso = 0;
   bool has_normals = false;
+  bool has_materials = false;
   Precision precision = Precision::f32;
   /// Added to every position (the node's translation in glTF); zero unless the sink asked for it.
   Vec3 origin{};

@@ -33,6 +33,7 @@ struct RunOptions {
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
   CountFirst count_first = CountFirst::no;  ///< no, where the reader reads once
+  const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
 };

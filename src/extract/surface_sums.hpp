@@ -26,11 +26,13 @@ struct TaskTotals {
   Bounds bounds;
   std::vector<LayerSum> layers;  ///< only when measured
   std::uint64_t n_asked = 0, n_skipped = 0;
+  std::uint64_t n_materials_held = 0;
 
   /// Adds what a piece of the task found; vertices have been counted.
   void add_piece(const TaskTotals& piece) {
     n_triangles += piece.n_triangles;
     n_boundary_edges += piece.n_boundary_edges;
+    n_materials_held += piece.n_materials_held;
     bounds.include(piece.bounds);
     layers.insert(layers.end(), piece.layers.begin(), piece.layers.end());
   }

@@ -30,6 +30,7 @@ void MeshChunk::clear() {
   positions.clear();
   positions_f64.clear();
   normals.clear();
+  materials.clear();
   indices.clear();
 }
 

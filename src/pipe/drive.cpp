@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 
 #include "base/parallel.hpp"
 #include "pipe/totals_sum.hpp"
+#include "pipe/vertex_materials.hpp"
 
 // A chunk stays with the thread that made it where its turn allows. Between a task and the end of
 // its writing lie at most two slots a thread, so memory does not grow with the volume.
@@ -33,6 +35,7 @@ struct Drive::Work {
   const std::stop_token& stop;
   MeshObject object;
   TotalsSum sum;
+  std::optional<VertexMaterials> materials;
   std::uint64_t n_numbered = 0;  ///< vertices of tasks that have their ids
   bool begun = false;
 
@@ -43,6 +46,7 @@ struct Drive::Work {
   [[nodiscard]] std::uint64_t n_samples() const;
   void look_at_stop() const;
   void begin_object_once();
+  void give_materials(TaskResult& result) const;
   void number(std::size_t slot);
   void place(std::size_t slot);
   void complete(std::size_t slot);
@@ -69,6 +73,10 @@ void Drive::Work::begin_object_once() {
     sink.begin_object(object);
     begun = true;
   }
+}
+
+void Drive::Work::give_materials(TaskResult& result) const {
+  result.totals.n_materials_held = materials ? materials->give(result.chunk) : 0;
 }
 
 void Drive::Work::number(std::size_t slot) {
@@ -104,6 +112,7 @@ void Drive::Work::make_pieces(std::size_t n, std::uint64_t first_vertex, TaskRes
        [&](std::size_t piece, std::size_t maker) {
          look_at_stop();
          tasks.make_piece(piece, maker, pieces[maker]);
+         give_materials(pieces[maker]);
          pieces[maker].chunk.index_base += first_vertex;
          if (has_chunk(pieces[maker])) sink.format(pieces[maker].chunk, sink_slot(maker));
        }},
@@ -172,6 +181,7 @@ void Drive::Work::extract() {
        [this](std::size_t n, std::size_t slot) {
          look_at_stop();
          tasks.make(n, slot, results[slot]);
+         give_materials(results[slot]);
        }},
       {true, [this](std::size_t /*n*/, std::size_t slot) { number(slot); }},
       {false,
@@ -201,9 +211,14 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
             progress,
             stop,
             options.object,
-            TotalsSum(options.extract.measure)};
+            TotalsSum(options.extract.measure),
+            std::nullopt};
+  if (options.materials != nullptr) {
+    work.materials.emplace(*options.materials, options.to_world.value(), options.extract.origin);
+  }
   work.object.iso = options.extract.iso;
   work.object.has_normals = options.extract.normals != Normals::none;
+  work.object.has_materials = options.materials != nullptr;
   work.object.precision = options.extract.precision;
   work.object.origin = options.extract.origin;
   const CountFirst count = options.count_first;

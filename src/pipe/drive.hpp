@@ -18,7 +18,8 @@ namespace mc::pipe {
 /// Holds the chunks on their way, whose memory is used again from run to run.
 class Drive {
  public:
-  /// Runs all tasks, which have been set to this room; as mc::run().
+  /// Runs all tasks, which have been set to this room; as mc::run(). With materials, the options
+  /// have the map to the world.
   MeshTotals run(TaskList& tasks, const Room& room, const RunOptions& options, bool allow_empty,
                  MeshSink& sink, Progress& progress, const std::stop_token& stop);
 

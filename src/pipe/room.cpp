@@ -22,12 +22,15 @@ constexpr std::uint64_t kPieceShare = 64;
 /// Chunks that are smaller than so many pieces are not worth a thread.
 constexpr std::uint64_t kPiecesAChunk = 2;
 
+/// A vertex's material in its chunk, and the most that a sink makes of it.
+constexpr std::uint64_t kMaterialBytes = 2 + 8;
+
 /// How a chunk and what the sink makes of it divide their memory.
 class Shares {
  public:
   explicit Shares(const RunOptions& o)
       : vertex_(mesh::vertex_bytes(o.extract.precision, o.extract.normals != Normals::none)),
-        made_vertex_(o.formatted.vertex_bytes),
+        made_vertex_(o.formatted.vertex_bytes + (o.materials == nullptr ? 0 : kMaterialBytes)),
         made_triangle_(o.formatted.triangle_bytes) {}
 
   /// A chunk of so many bytes with what is made of it, whether it is all vertices or all triangles.

@@ -40,6 +40,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
   const pipe::Room room = pipe::room_within(*tasks, options);
   tasks->set_room(room);
   RunOptions chosen = options;
+  chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
   if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
     if ((*dense)->reads_once()) chosen.count_first = CountFirst::no;
   }

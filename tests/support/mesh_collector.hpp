@@ -17,6 +17,7 @@ namespace mc::test {
 struct Collected {
   Mesh mesh;
   std::vector<std::array<double, 3>> positions_f64;
+  std::vector<std::uint16_t> materials;
   MeshTotals totals;
   MeshObject object;
   int n_objects = 0;
@@ -34,6 +35,7 @@ class CollectingSink final : public MeshSink {
     append(chunk.positions, out_.mesh.positions);
     append(chunk.positions_f64, out_.positions_f64);
     append(chunk.normals, out_.mesh.normals);
+    out_.materials.insert(out_.materials.end(), chunk.materials.begin(), chunk.materials.end());
     const auto base = static_cast<std::uint32_t>(chunk.index_base);
     for (std::size_t n = 0; n < chunk.indices.size(); n += 3) {
       out_.mesh.triangles.push_back(
@@ -70,6 +72,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   run_options.slab_layers = how.slab_layers;
   run_options.count_first = how.count_first ? CountFirst::yes : CountFirst::no;
   run_options.skip = how.skip;
+  run_options.materials = materials_of(reader);
   run_options.chunk_bytes = how.chunk_bytes;
   Collected out;
   CollectingSink sink(out);
