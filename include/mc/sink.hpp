@@ -42,6 +42,8 @@ bool is_mesh_format(std::string_view format);
 /// How a mesh format wants its positions. `f32_moves` says that float would move a vertex of this
 /// volume by more than 1/8192 of a cell.
 MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f32_moves);
+/// Whether the format holds an index a vertex.
+bool holds_materials(std::string_view format);
 /// Objects that one file of the format can hold: 1 for PLY and STL.
 bool holds_several_objects(std::string_view format);
 

@@ -33,14 +33,15 @@ struct Format {
   OpenMesh open;          // none: a volume format
   bool has_text_form = false;
   bool holds_several = false;
+  bool holds_materials = false;
 };
 
 constexpr std::array kFormats{
-    Format{"ply", sink::open_ply, true, false},
+    Format{"ply", sink::open_ply, true, false, true},
     Format{"obj", sink::open_obj, true, true},
     Format{"stl", sink::open_stl, true, false},
-    Format{"glb", open_glb, false, true},
-    Format{"gltf", open_gltf, false, true},
+    Format{"glb", open_glb, false, true, true},
+    Format{"gltf", open_gltf, false, true, true},
     Format{"vdb", nullptr},
     Format{"nrrd", nullptr},
     Format{"raw", nullptr},
@@ -111,6 +112,11 @@ MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f
     return {.formatted = sink::kStlFormatted};
   }
   return {.relative_origin = f32_moves, .formatted = sink::kGltfFormatted};
+}
+
+bool holds_materials(std::string_view format) {
+  const Format* found = format_named(format);
+  return found != nullptr && found->holds_materials;
 }
 
 bool holds_several_objects(std::string_view format) {

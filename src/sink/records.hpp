@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
 
 #include "mc/mesh.hpp"
 
@@ -59,22 +60,35 @@ void make_lines(std::size_t n, const LineBytes& line, Buffer<std::byte>& to, Pri
   to.resize(size);
 }
 
-/// Positions (f32 or f64, as they came), then normals where there are some: interleaved records.
-inline void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to) {
-  const auto interleave = [&](const auto& positions) {
-    constexpr std::size_t kPosition = 3 * sizeof positions[0];
-    constexpr std::size_t kNormal = 3 * sizeof(float);
-    make_records(chunk.n_vertices(), kPosition + kNormal, to,
-                 [p = positions.data(), n = chunk.normals.data()](std::size_t i, std::byte* at) {
-                   std::memcpy(at, p + 3 * i, kPosition);
-                   std::memcpy(at + kPosition, n + 3 * i, kNormal);
-                 });
+/// Positions (f32 or f64, as they came), normals where there are some, then what more(i, at) makes
+/// of vertex i, kMore bytes: interleaved records.
+template <std::size_t kMore, class More>
+void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to, More more) {
+  const auto interleave = [&]<class T, std::size_t kNormal>(
+                              const Buffer<T>& positions,
+                              std::integral_constant<std::size_t, kNormal>) {
+    constexpr std::size_t kPosition = 3 * sizeof(T);
+    make_records(
+        chunk.n_vertices(), kPosition + kNormal + kMore, to,
+        [p = positions.data(), n = chunk.normals.data(), more](std::size_t i, std::byte* at) {
+          std::memcpy(at, p + 3 * i, kPosition);
+          if constexpr (kNormal != 0) std::memcpy(at + kPosition, n + 3 * i, kNormal);
+          more(i, at + kPosition + kNormal);
+        });
   };
-  if (chunk.positions_f64.empty()) {
-    interleave(chunk.positions);
-  } else {
-    interleave(chunk.positions_f64);
-  }
+  const auto with_normals = [&](const auto& positions) {
+    if (chunk.normals.empty()) {
+      interleave(positions, std::integral_constant<std::size_t, 0>());
+    } else {
+      interleave(positions, std::integral_constant<std::size_t, 3 * sizeof(float)>());
+    }
+  };
+  chunk.positions_f64.empty() ? with_normals(chunk.positions) : with_normals(chunk.positions_f64);
+}
+
+/// Positions, then normals where there are some.
+inline void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to) {
+  make_vertices<0>(chunk, to, [](std::size_t /*i*/, std::byte* /*at*/) {});
 }
 
 }  // namespace mc::sink

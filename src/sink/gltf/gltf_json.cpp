@@ -48,6 +48,37 @@ tinygltf::Accessor accessor(int of_view, std::size_t at, std::uint64_t count, in
   return made;
 }
 
+constexpr const char* kPlain = "plain";
+constexpr const char* kColoured = "coloured by vertex";
+
+/// Both of one roughness; colours of vertices are factors of the base colour.
+tinygltf::Material material_named(const std::string& name) {
+  tinygltf::Material made;
+  made.name = name;
+  const double grey = name == kPlain ? 0.6 : 1.0;
+  made.pbrMetallicRoughness.baseColorFactor = {grey, grey, grey, 1.0};
+  made.pbrMetallicRoughness.metallicFactor = 0.0;
+  made.pbrMetallicRoughness.roughnessFactor = 0.75;
+  return made;
+}
+
+/// The material of that name, which is appended where it is not there yet.
+int add_material(tinygltf::Model& model, const char* name) {
+  auto& all = model.materials;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& m) { return m.name == name; });
+  const auto at = found - all.begin();
+  if (found == all.end()) all.push_back(material_named(name));
+  return static_cast<int>(at);
+}
+
+/// Appends the accessor of an attribute of the vertices.
+void add_attribute(tinygltf::Model& model, tinygltf::Primitive& primitive, const std::string& name,
+                   const tinygltf::Accessor& values) {
+  primitive.attributes[name] = static_cast<int>(model.accessors.size());
+  model.accessors.push_back(values);
+}
+
 /// Appends views, accessors and primitive of one object, or part of one; returns the mesh.
 int add_mesh(tinygltf::Model& model, const GltfObject& object) {
   const int views = static_cast<int>(model.bufferViews.size());
@@ -73,24 +104,26 @@ int add_mesh(tinygltf::Model& model, const GltfObject& object) {
   primitive.attributes["POSITION"] = accessors;
   primitive.indices = accessors + 1;
   if (object.has_normals) {
-    primitive.attributes["NORMAL"] = accessors + 2;
-    model.accessors.push_back(
+    add_attribute(
+        model, primitive, "NORMAL",
         accessor(views, 12, object.n_vertices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3));
   }
-  primitive.material = 0;
+  if (object.has_materials) {
+    const auto at = static_cast<std::size_t>(object.material_at());
+    add_attribute(model, primitive, "_MATERIAL",
+                  accessor(views, at, object.n_vertices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                           TINYGLTF_TYPE_SCALAR));
+    tinygltf::Accessor colours =
+        accessor(views, at + 4, object.n_vertices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                 TINYGLTF_TYPE_VEC4);
+    colours.normalized = true;
+    add_attribute(model, primitive, "COLOR_0", colours);
+  }
+  primitive.material = add_material(model, object.has_materials ? kColoured : kPlain);
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   if (!object.continues) model.meshes.emplace_back();
   model.meshes.back().primitives.push_back(primitive);
   return static_cast<int>(model.meshes.size()) - 1;
-}
-
-tinygltf::Material plain_material() {
-  tinygltf::Material made;
-  made.name = "plain";
-  made.pbrMetallicRoughness.baseColorFactor = {0.6, 0.6, 0.6, 1.0};
-  made.pbrMetallicRoughness.metallicFactor = 0.0;
-  made.pbrMetallicRoughness.roughnessFactor = 0.75;
-  return made;
 }
 
 tinygltf::Model model_of(std::span<const GltfObject> objects) {
@@ -118,7 +151,6 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
   }
   model.scenes.push_back(scene);
   if (!model.meshes.empty()) {
-    model.materials.push_back(plain_material());
     model.buffers.emplace_back();
   }
   return model;

@@ -14,18 +14,28 @@
 
 namespace mc::sink {
 
-/// One object of a buffer, or the part of one: interleaved positions and normals, then its indices.
+/// A vertex's material: its index, two bytes of nothing, since attributes are aligned to four, and
+/// its colour.
+inline constexpr std::size_t kMaterialBytes = 8;
+
+/// One object of a buffer, or the part of one: interleaved positions, normals and materials, then
+/// its indices.
 struct GltfObject {
   std::string name;
   Vec3 origin{};
   bool has_normals = false;
+  bool has_materials = false;
   std::uint64_t n_vertices = 0, n_indices = 0;
   std::uint64_t vertices_at = 0, indices_at = 0;  ///< bytes from the buffer's start
   std::array<float, 3> lo{}, hi{};                ///< of the positions as stored
   std::size_t buffer = 0;                         ///< number of the one it lies in
   bool continues = false;                         ///< a further primitive of the object before
 
-  [[nodiscard]] std::uint64_t vertex_bytes() const { return has_normals ? 24 : 12; }
+  /// Bytes from a vertex's start.
+  [[nodiscard]] std::uint64_t material_at() const { return has_normals ? 24 : 12; }
+  [[nodiscard]] std::uint64_t vertex_bytes() const {
+    return material_at() + (has_materials ? kMaterialBytes : 0);
+  }
   /// The greatest index a type holds is reserved.
   [[nodiscard]] bool has_short_indices() const { return n_vertices <= 0xFFFF; }
   [[nodiscard]] std::uint64_t index_bytes() const { return has_short_indices() ? 2 : 4; }

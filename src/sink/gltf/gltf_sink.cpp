@@ -13,16 +13,17 @@
 
 #include "sink/gltf/gltf_json.hpp"
 #include "sink/gltf/gltf_parts.hpp"
+#include "sink/gltf/palette.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
 #include "sink/part.hpp"
 #include "sink/records.hpp"
 
-// glTF 2.0 (Khronos; ISO/IEC 12113): per object one interleaved view of positions and normals, then
-// its indices. A GLB has its JSON before the buffer, so room for the JSON of one object is kept,
-// filled with spaces, and patched at the end; more objects than that move the buffer up once. The
-// bytes are the same for a file and a stream, with counts known or not, and for any cut into
-// chunks.
+// glTF 2.0 (Khronos; ISO/IEC 12113): per object one interleaved view of positions, normals and
+// materials, then its indices. A GLB has its JSON before the buffer, so room for the JSON of one
+// object is kept, filled with spaces, and patched at the end; more objects than that move the
+// buffer up once. The bytes are the same for a file and a stream, with counts known or not, and for
+// any cut into chunks.
 
 namespace mc::sink {
 
@@ -203,6 +204,7 @@ void GltfSink::begin_object(const MeshObject& object) {
   made.name = object.name;
   made.origin = object.origin;
   made.has_normals = object.has_normals;
+  made.has_materials = object.has_materials;
   made.lo = filled(std::numeric_limits<float>::infinity());
   made.hi = filled(-std::numeric_limits<float>::infinity());
   if (is_glb_ && objects_.empty()) {
@@ -253,7 +255,16 @@ void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
   }
   s.lo = lo;
   s.hi = hi;
-  if (object_.has_normals) {
+  if (object_.has_materials) {
+    make_vertices<kMaterialBytes>(chunk, s.vertices.made,
+                                  [m = chunk.materials.data()](std::size_t i, std::byte* at) {
+                                    const std::array<std::uint16_t, 2> padded{m[i], 0};
+                                    const std::array<std::uint8_t, 4> colour = colour_of(m[i]);
+                                    std::memcpy(at, padded.data(), sizeof padded);
+                                    std::memcpy(at + sizeof padded, colour.data(), sizeof colour);
+                                  });
+    s.vertices.take_made();
+  } else if (object_.has_normals) {
     make_vertices(chunk, s.vertices.made);
     s.vertices.take_made();
   } else {

@@ -28,9 +28,9 @@ constexpr std::size_t kNormalBytes = 12;
 
 using Ids = std::array<std::uint32_t, 3>;
 
-/// Of the text form, with normals.
+/// Of the text form, with normals; and with a material, which is none of the usual.
 constexpr LineBytes vertex_line(Precision precision) {
-  return {2 * kMostTriple + 2,
+  return {2 * kMostTriple + kMostDigits + 3,
           (precision == Precision::f64 ? kMostTriple : kFloatTriple) + kFloatTriple + 2};
 }
 constexpr LineBytes kFaceLine{kMostTriple + 3, kIdTriple + 3};
@@ -77,7 +77,8 @@ class PlySink final : public MeshSink {
 };
 
 std::size_t PlySink::vertex_bytes() const {
-  return position_bytes(object_.precision) + (object_.has_normals ? kNormalBytes : 0);
+  return position_bytes(object_.precision) + (object_.has_normals ? kNormalBytes : 0) +
+         (object_.has_materials ? sizeof(std::uint16_t) : 0);
 }
 
 void PlySink::check_vertices(std::uint64_t n) const {
@@ -98,6 +99,9 @@ std::string PlySink::unpadded_header(const ObjectCounts& counts) const {
   }
   if (object_.has_normals) {
     text += "property float nx\nproperty float ny\nproperty float nz\n";
+  }
+  if (object_.has_materials) {
+    text += "property ushort material\n";
   }
   text += "element face " + std::to_string(counts.n_triangles) + "\nproperty list uchar ";
   text += counts.n_vertices > kMostIntVertices ? "uint" : "int";
@@ -147,6 +151,10 @@ void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) c
       *at++ = ' ';
       at = print_triple(at, &chunk.normals[3 * i]);
     }
+    if (object_.has_materials) {
+      *at++ = ' ';
+      at = print_number(at, std::uint64_t{chunk.materials[i]});
+    }
     *at++ = '\n';
     return at;
   });
@@ -155,6 +163,12 @@ void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) c
 void PlySink::make_vertex_piece(const MeshChunk& chunk, Piece& piece) const {
   if (options_.ascii) {
     make_vertex_lines(chunk, piece.made);
+    piece.take_made();
+  } else if (object_.has_materials) {
+    make_vertices<sizeof(std::uint16_t)>(
+        chunk, piece.made, [m = chunk.materials.data()](std::size_t i, std::byte* at) {
+          std::memcpy(at, m + i, sizeof *m);
+        });
     piece.take_made();
   } else if (object_.has_normals) {
     make_vertices(chunk, piece.made);

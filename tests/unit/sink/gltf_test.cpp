@@ -101,9 +101,36 @@ TEST(Glb, ReadsBackTheSame) {
   EXPECT_EQ(at<std::uint16_t>(data, 96 + 2 * 10), 3U);  // 1 3 2
 }
 
+TEST(Glb, MaterialsAreIndicesAndColours) {
+  const Tetrahedron mesh{.has_normals = true, .has_materials = true};
+  const tinygltf::Model model = read_glb(written(mesh, glb(), {}, 2));
+  ASSERT_EQ(model.materials.size(), 1U);
+  EXPECT_EQ(model.materials[0].pbrMetallicRoughness.baseColorFactor,
+            (std::vector<double>{1, 1, 1, 1}));
+  const tinygltf::Primitive& primitive = model.meshes[1].primitives[0];
+  const auto accessor = [&](const char* name) {
+    return model.accessors[static_cast<std::size_t>(primitive.attributes.at(name))];
+  };
+  const tinygltf::Accessor index = accessor("_MATERIAL");
+  EXPECT_EQ(index.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
+  EXPECT_EQ(index.byteOffset, 24U);
+  EXPECT_EQ(index.count, 4U);
+  const tinygltf::Accessor colour = accessor("COLOR_0");
+  EXPECT_EQ(colour.byteOffset, 28U);
+  EXPECT_TRUE(colour.normalized);
+  const auto& view = model.bufferViews[static_cast<std::size_t>(index.bufferView)];
+  EXPECT_EQ(view.byteStride, 32U);
+  const unsigned char* data = model.buffers[0].data.data() + view.byteOffset;
+  EXPECT_EQ(at<std::uint16_t>(data, 24), 0);
+  EXPECT_EQ(at<std::uint16_t>(data, 3 * 32 + 24), 65535);
+  EXPECT_EQ(at<std::uint32_t>(data, 28), 0xFF999999U);                                // 0 is grey
+  EXPECT_EQ(at<std::uint32_t>(data, 2 * 32 + 28), 0xFF0058CAU);                       // 8 is orange
+  EXPECT_NE(at<std::uint32_t>(data, 32 + 28), at<std::uint32_t>(data, 2 * 32 + 28));  // 7 is not
+}
+
 TEST(Glb, EveryWayGivesTheSameBytes) {
   for (const std::size_t n_objects : {1U, 2U, 5U}) {
-    const Tetrahedron mesh{.has_normals = n_objects == 2};
+    const Tetrahedron mesh{.has_normals = n_objects == 2, .has_materials = n_objects > 1};
     const std::string expected = written(mesh, glb(), {}, n_objects);
     EXPECT_EQ(read_glb(expected).meshes.size(), n_objects);
     for (const Way& way : all_ways()) {

@@ -71,10 +71,24 @@ TEST(Ply, DoublesAreWrittenAsDoubles) {
   EXPECT_NE(text.find("\n0.1 0 -2 0 0 -1\n"), std::string::npos);
 }
 
+TEST(Ply, MaterialsAreTheLastPropertyOfAVertex) {
+  const Tetrahedron mesh{.has_normals = true, .precision = Precision::f64, .has_materials = true};
+  const std::string text = written(mesh, ply(true), {});
+  EXPECT_NE(text.find("property float nz\nproperty ushort material\nelement face"),
+            std::string::npos);
+  EXPECT_NE(text.find("\n0.1 0 -2 0 0 -1 65535\n"), std::string::npos);
+  const std::string bytes = written(mesh, ply(), {});
+  const std::size_t data = bytes.find("end_header\n") + 11;
+  ASSERT_EQ(bytes.size(), data + 4 * 38 + 4 * 13);
+  EXPECT_EQ(at<std::uint16_t>(bytes, data + 38 + 36), 7);
+  const std::string bare = written({.has_materials = true}, ply(), {});
+  EXPECT_EQ(at<std::uint16_t>(bare, bare.find("end_header\n") + 11 + 2 * 14 + 12), 8);
+}
+
 TEST(Ply, EveryWayGivesTheSameBytes) {
   for (const bool ascii : {false, true}) {
     for (const bool normals : {false, true}) {
-      const Tetrahedron mesh{.has_normals = normals};
+      const Tetrahedron mesh{.has_normals = normals, .has_materials = !normals};
       const std::string expected = written(mesh, ply(ascii), {});
       for (const Way& way : all_ways()) {
         EXPECT_EQ(written(mesh, ply(ascii), way), expected)

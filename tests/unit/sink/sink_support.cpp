@@ -14,6 +14,7 @@ constexpr std::array<std::array<double, 3>, 4> kCorners{
     {{0, 0, 0}, {1.5, 0, 0}, {0, 1, 0}, {0.1, 0, -2}}};
 constexpr std::array<std::array<float, 3>, 4> kNormals{
     {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}};
+constexpr std::array<std::uint16_t, 4> kMaterials{0, 7, 8, 65535};
 constexpr std::array<std::array<std::uint32_t, 3>, 4> kTriangles{
     {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 
@@ -22,6 +23,7 @@ MeshChunk part(const Tetrahedron& mesh, std::size_t v0, std::size_t v1, std::siz
   MeshChunk chunk;
   chunk.index_base = base;
   for (std::size_t v = v0; v < v1; ++v) {
+    if (mesh.has_materials) chunk.materials.push_back(kMaterials[v]);
     for (std::size_t a = 0; a < 3; ++a) {
       if (mesh.precision == Precision::f64) {
         chunk.positions_f64.push_back(kCorners[v][a]);
@@ -48,6 +50,7 @@ MeshObject Tetrahedron::object(bool counts, const std::string& name) const {
   made.name = name;
   made.iso = 0.5;
   made.has_normals = has_normals;
+  made.has_materials = has_materials;
   made.precision = precision;
   if (counts) {
     made.n_vertices = 4;

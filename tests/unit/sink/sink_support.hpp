@@ -65,6 +65,7 @@ inline std::string error_text(const std::function<void()>& body, ErrorKind kind)
 struct Tetrahedron {
   bool has_normals = false;
   Precision precision = Precision::f32;
+  bool has_materials = false;
 
   [[nodiscard]] MeshObject object(bool counts, const std::string& name = "iso 0.5") const;
   [[nodiscard]] std::vector<MeshChunk> chunks(int cut) const;
