@@ -14,6 +14,7 @@
 #include "source/mapped_file.hpp"
 #include "source/open_named.hpp"
 #include "source/spec/read_volume.hpp"
+#include "source/text.hpp"
 
 // Samples become float32 when they are loaded: reading one then costs no conversion.
 
@@ -41,6 +42,13 @@ std::vector<float> brightnesses(const Buffer<std::byte>& bytes, SampleType type)
     }
   });
   return out;
+}
+
+/// , "a", "b"
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += ", " + quoted_text(name);
+  return list;
 }
 
 /// One name for all ways to write a path.
@@ -146,6 +154,12 @@ const NamedVolume& SpecFiles::named_volume(const std::string& path,
   const Key key{whole_path(place), grid};
   if (const auto known = volumes_.find(key); known != volumes_.end()) return known->second;
   const Source source = open_named(place, grid, inside_);
+  if (!grid && !source.other_grids.empty()) {
+    throw Error(ErrorKind::input, place,
+                "holds several grids: " + quoted_text(volume_of(source.reader).name) +
+                    list_of(source.other_grids),
+                "name one as \"grid\"");
+  }
   take(count_samples(volume_of(source.reader).lattice, place), place);
   NamedVolume named = described(volume_of(source.reader));
   named.samples = std::make_shared<const SampledVolume>(read_volume(source.reader, place));

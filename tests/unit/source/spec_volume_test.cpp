@@ -9,6 +9,9 @@
 #include "source/spec/spec_files.hpp"
 #include "support/memory_readers.hpp"
 #include "support/source_files.hpp"
+#if MC_WITH_VDB
+#include "support/vdb_grids.hpp"
+#endif
 
 // Volumes that documents name: how they are found, opened and made dense, and the full text of
 // every fault.
@@ -173,6 +176,22 @@ TEST_F(SpecVolumeFaults, OfGrids) {
   EXPECT_EQ(fault_of(R"("v.nrrd", "grid": "density")"),
             at("v.nrrd") + ": NRRD has no grids by name; leave out \"grid\"");
 }
+
+#if MC_WITH_VDB
+TEST_F(SpecVolumeFaults, OfSeveralGrids) {
+  openvdb::initialize();
+  openvdb::GridPtrVec grids;
+  for (const char* name : {"density", "heat", "density"}) {
+    grids.push_back(test::noise_grid<openvdb::FloatGrid>(0));
+    grids.back()->setName(name);
+  }
+  test::write_grids(at("v.vdb"), grids);
+  EXPECT_EQ(fault_of(R"("v.vdb")"),
+            at("v.vdb") +
+                R"(: holds several grids: "density[0]", "heat", "density[1]"; name one as "grid")");
+  EXPECT_EQ(fault_of(R"("v.vdb", "grid": "heat")"), "no error");
+}
+#endif
 
 TEST_F(SpecVolumeFaults, OfKeys) {
   static_cast<void>(folder_.file("v.nrrd", nrrd("")));
