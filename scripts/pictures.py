@@ -4,12 +4,13 @@
     pictures.py MESH PNG WIDTHxHEIGHT [up=x,y,z] [from=x,y,z] [zoom=F] [color=r,g,b] [opacity=F]...
 
 `from` is the direction from the middle of the mesh to the eye. MESH is binary PLY or GLB; the second
-and later meshes of a GLB take the second and later `color` and `opacity`.
+and later meshes of a GLB take the second and later `color` and `opacity`. A mesh with colours of its
+own (COLOR_0) shows those.
 """
 
 import sys
 
-from vtkmodules.vtkCommonCore import vtkUnsignedCharArray  # noqa: F401
+from vtkmodules.vtkCommonCore import VTK_UNSIGNED_CHAR, vtkUnsignedCharArray
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkImagingCore import vtkImageResize  # noqa: F401
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
@@ -51,10 +52,28 @@ def meshes(path):
     return found
 
 
+def screen_colors(linear):
+    """Linear colours (0 to 255, or 0 to 1) as bytes of sRGB."""
+    most = 255 if linear.GetDataType() == VTK_UNSIGNED_CHAR else 1
+    colors = vtkUnsignedCharArray()
+    colors.SetNumberOfComponents(3)
+    colors.SetNumberOfTuples(linear.GetNumberOfTuples())
+    for n in range(linear.GetNumberOfTuples()):
+        for component in range(3):
+            share = linear.GetComponent(n, component) / most
+            screen = 12.92 * share if share <= 0.0031308 else 1.055 * share ** (1 / 2.4) - 0.055
+            colors.SetComponent(n, component, round(255 * screen))
+    return colors
+
+
 def actor(mesh, color, opacity):
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(mesh)
-    mapper.ScalarVisibilityOff()
+    if mesh.GetPointData().HasArray("COLOR_0"):
+        mesh.GetPointData().SetScalars(screen_colors(mesh.GetPointData().GetArray("COLOR_0")))
+        mapper.SetColorModeToDirectScalars()
+    else:
+        mapper.ScalarVisibilityOff()
     it = vtkActor()
     it.SetMapper(mapper)
     look = it.GetProperty()

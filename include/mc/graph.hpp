@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -172,6 +173,11 @@ class GraphField {
   /// Shapes   out: any strides, rows contiguous.
   /// Cost     O(samples * nodes); what does not depend on y is computed once a plane.
   void sample(const Vec3& origin, const Vec3& spacing, const Index3& first, View3<float> out) const;
+
+  /// Fills `out` with the values at `places`, which are world coordinates.
+  /// Shapes   out: as many as places.
+  /// Cost     O(places * nodes): nothing is shared between places.
+  void sample_places(std::span<const std::array<float, 3>> places, std::span<float> out) const;
 
   /// sample(), where `query` looks: fills what SlabReader::read_surface() promises, within the part
   /// of the query's region (lattice indices) that `out` covers, and notes in `sides` what is left

@@ -64,12 +64,14 @@ class Extraction {
   [[nodiscard]] const VolumeReader& reader() const { return source_->reader; }
   [[nodiscard]] const Volume& volume() const { return volume_of(source_->reader); }
   [[nodiscard]] IndexBox box() const { return plan_.extract.region.value_or(volume().lattice.box); }
+  [[nodiscard]] const MaterialReader* materials() const;
   [[nodiscard]] RunOptions run_options(const Iso& iso) const;
   [[nodiscard]] SinkOptions sink_options() const;
   [[nodiscard]] FieldStatistics measure(std::span<const double> percentiles);
   void probe_output() const;
   MeshTotals run_one(const Iso& iso, MeshSink& sink);
   void note_border(const MeshTotals& totals) const;
+  void warn_of_materials(const MeshTotals& totals) const;
 
   const ExtractPlan& plan_;
   std::string output_;
@@ -117,6 +119,11 @@ void Extraction::open(const std::vector<std::string>& inputs) {
 
 void Extraction::place_mesh() {
   check_region(reader(), plan_.extract.region);
+  if (materials_of(reader()) != nullptr && !holds_materials(plan_.format)) {
+    invocation_.console.note(fmt::format("{} holds no materials, so they are left out; write ply, "
+                                         "glb or gltf",
+                                         plan_.format));
+  }
   placement_ = place(volume(), plan_.place, plan_.format);
   report_.placement = placement_;
   const RoundingLoss loss = rounding_loss(box(), placement_.to_world, Precision::f32);
@@ -199,6 +206,11 @@ void Extraction::probe_output() const {
   open_mesh_sink(output_, plan_.sink);
 }
 
+/// The volume's, where the output can hold them.
+const MaterialReader* Extraction::materials() const {
+  return holds_materials(plan_.format) ? materials_of(reader()) : nullptr;
+}
+
 RunOptions Extraction::run_options(const Iso& iso) const {
   RunOptions options;
   options.extract = plan_.extract;
@@ -214,6 +226,7 @@ RunOptions Extraction::run_options(const Iso& iso) const {
   options.object.has_normals = plan_.extract.normals != Normals::none;
   options.object.precision = needs_.precision;
   options.object.origin = options.extract.origin;
+  options.materials = materials();
   options.memory_bytes = plan_.memory_bytes;
   options.count_first = counting_of(reader());
   options.skip = plan_.skip;
@@ -275,6 +288,14 @@ void Extraction::note_border(const MeshTotals& totals) const {
       totals.n_boundary_edges));
 }
 
+void Extraction::warn_of_materials(const MeshTotals& totals) const {
+  if (totals.n_materials_held == 0) return;
+  invocation_.console.warn(fmt::format(
+      "{}: {} of {} vertices have a material that is no number from 0 to 65535: the nearest is "
+      "taken, 0 for NaN",
+      source_->place, totals.n_materials_held, totals.n_vertices));
+}
+
 void Extraction::write() {
   timed("extract", [&] {
     const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
@@ -284,6 +305,7 @@ void Extraction::write() {
   });
   for (const MeshTotals& totals : report_.totals) {
     note_border(totals);
+    warn_of_materials(totals);
     invocation_.console.detail(fmt::format("{}: {} vertices, {} triangles", output_,
                                            totals.n_vertices, totals.n_triangles));
     if (totals.n_skipped != 0) {

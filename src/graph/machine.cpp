@@ -12,7 +12,7 @@ void Machine::run(std::span<const Instruction> code) {
   assert(n_ <= kPiece);
   for (const Instruction& instruction : code) {
     float* out = registers_.data() + std::size_t{program_.homes[instruction.out]} * kPiece;
-    if (program_.uniform[instruction.out]) {
+    if (shares_y_ && program_.uniform[instruction.out]) {
       run(instruction, 1, out);
       std::fill(out + 1, out + n_, *out);
     } else {
@@ -27,7 +27,7 @@ void Machine::run(const Instruction& instruction, std::size_t n, float* out) con
       std::copy_n(x_.begin(), n, out);
       return;
     case Op::y:
-      std::fill_n(out, n, y_);
+      std::copy_n(y_.begin(), n, out);  // n is 1 where they share it
       return;
     case Op::z:
       std::copy_n(z_.begin(), n, out);

@@ -42,6 +42,22 @@ void GraphField::sample(const Vec3& origin, const Vec3& spacing, const Index3& f
   }
 }
 
+void GraphField::sample_places(std::span<const std::array<float, 3>> places,
+                               std::span<float> out) const {
+  graph::Machine machine(*program_);
+  for (std::size_t first = 0; first < places.size(); first += graph::kPiece) {
+    const std::size_t n = std::min(places.size() - first, graph::kPiece);
+    float* const y = machine.y();
+    for (std::size_t s = 0; s < n; ++s) {
+      const std::array<float, 3>& at = places[first + s];
+      machine.x()[s] = at[0], y[s] = at[1], machine.z()[s] = at[2];
+    }
+    machine.set_count(n);
+    machine.run(program_->code);
+    std::copy_n(machine.row(program_->result), n, out.begin() + static_cast<std::ptrdiff_t>(first));
+  }
+}
+
 void GraphField::sample_surface(const Vec3& origin, const Vec3& spacing, const Index3& first,
                                 const SurfaceQuery& query, View3<float> out, SideMap& sides) const {
   IndexBox box = query.region;

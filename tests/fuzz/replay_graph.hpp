@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -30,12 +31,26 @@ inline std::vector<std::uint32_t> plane_bits(const SlabReader& reader, std::int3
   return bits;
 }
 
+/// Materials at places between the samples, none where the document has none; and how many are
+/// held.
+inline std::vector<std::uint32_t> materials_of(const SlabReader& reader) {
+  if (reader.materials() == nullptr) return {};
+  std::vector<Vec3> places;
+  for (int n = 0; n < 300; ++n) places.push_back({n % 9 - 0.3, n % 7 * 0.8, n * 0.017});
+  std::vector<std::uint16_t> found(places.size());
+  const std::size_t n_held = reader.materials()->materials_at(places, found);
+  std::vector<std::uint32_t> out(found.begin(), found.end());
+  out.push_back(static_cast<std::uint32_t>(n_held));
+  return out;
+}
+
 /// Makes a document of the bytes, which must be good, and samples it on every SIMD target: whole,
-/// and plane by plane. Returns false where it expands past the limit; anything else that goes wrong
-/// comes out as an exception that holds the document.
+/// and plane by plane, and its materials. Returns false where it expands past the limit; anything
+/// else that goes wrong comes out as an exception that holds the document.
 inline bool replay_graph(std::span<const std::uint8_t> bytes) {
   const std::string text = RandomSpec(bytes).text();
   std::vector<std::uint32_t> expected;
+  std::optional<std::vector<std::uint32_t>> materials;
   for (const std::string& target : extraction::simd_targets()) {
     extraction::set_simd_target(target);
     try {
@@ -47,10 +62,13 @@ inline bool replay_graph(std::span<const std::uint8_t> bytes) {
         const auto plane = plane_bits(*reader, k, k + 1);
         pieces.insert(pieces.end(), plane.begin(), plane.end());
       }
-      if (pieces != whole || (!expected.empty() && whole != expected)) {
+      const std::vector<std::uint32_t> found = materials_of(*reader);
+      if (pieces != whole || (!expected.empty() && whole != expected) ||
+          found != materials.value_or(found)) {
         throw std::logic_error(target + " differs on " + text);
       }
       expected = whole;
+      materials = found;
     } catch (const Error& error) {
       if (std::string_view(error.what()).find("expand to more") == std::string_view::npos) {
         throw std::logic_error(std::string(error.what()) + " in " + text);

@@ -21,11 +21,16 @@ import tempfile
 
 import mesh_files
 
-# Closed and open, with u16 and with u32 indices.
+# Closed and open, with u16 and with u32 indices, with materials.
 SPECS = {
     "ball": {
         "grid": {"cells": [24, 24, 24], "spacing": 0.25, "origin": [-3, -3, -3]},
         "field": {"type": "sphere", "center": [0, 0, 0], "radius": 2},
+    },
+    "painted": {
+        "grid": {"cells": [24, 24, 24], "spacing": 0.25, "origin": [-3, -3, -3]},
+        "field": {"type": "sphere", "center": [0, 0, 0], "radius": 2},
+        "material": {"type": "select", "control": "y", "a": 2, "b": 300},
     },
     "hills": {
         "grid": {"cells": [200, 24, 200], "spacing": 1, "origin": [0, 0, 0]},

@@ -115,7 +115,9 @@ class RandomSpec {
       out += ", \"" + name + "\": " + object(0);
       names_.push_back(name);
     }
-    return out + "}, \"field\": " + object(0) + "}";
+    out += "}, \"field\": " + object(0);
+    if (below(3) == 0) out += ", \"material\": " + object(0);
+    return out + "}";
   }
 
  private:

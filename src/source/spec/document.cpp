@@ -136,12 +136,17 @@ SpecDocument load_spec(const std::string& place, std::string_view text, const Sp
   NodeLoader nodes(document, keys.optional("nodes"), settings, files);
   const JsonValue* field = keys.required("field");
   const NodeId top = field == nullptr ? NodeId{} : nodes.load(*field);
+  const JsonValue* material = keys.optional("material");
+  const NodeId material_top = material == nullptr ? NodeId{} : nodes.load(*material);
   nodes.load_unused();
   keys.finish();
   faults.throw_if_any();
 
   SpecDocument spec{volume_of_grid(grid), grid.origin, grid.spacing,
-                    compile(document, nodes.graph(), top, *field)};
+                    compile(document, nodes.graph(), top, *field), std::nullopt};
+  if (material != nullptr) {
+    spec.material = compile(document, nodes.graph(), material_top, *material);
+  }
   spec.volume.cls = settings.convention == Convention::density ? VolumeClass::density_spec
                                                                : VolumeClass::sdf_spec;
   spec.volume.iso = iso;

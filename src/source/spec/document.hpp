@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,7 @@ struct SpecDocument {
   Vec3 origin{};
   Vec3 spacing{};
   GraphField field;
+  std::optional<GraphField> material;  ///< its value is an index
 };
 
 /// Errors   usage, with every fault of the document; those of SpecFiles.

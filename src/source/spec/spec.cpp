@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "source/spec/spec.hpp"
 
+#include <array>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "base/checked.hpp"
 #include "field/box_reader.hpp"
@@ -19,11 +22,22 @@ namespace mc::source {
 
 namespace {
 
-class SpecReader final : public SlabReader, public field::BoxReader {
+/// The index that a node's value names, and whether it is another number.
+std::pair<std::uint16_t, bool> index_of(float value) {
+  constexpr float kMost = 65535;
+  const float rounded = std::nearbyint(value);
+  if (rounded >= 0 && rounded <= kMost) return {static_cast<std::uint16_t>(rounded), false};
+  return {static_cast<std::uint16_t>(rounded > kMost ? kMost : 0), true};
+}
+
+class SpecReader final : public SlabReader, public field::BoxReader, private MaterialReader {
  public:
   explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {}
 
   [[nodiscard]] const Volume& volume() const override { return spec_.volume; }
+  [[nodiscard]] const MaterialReader* materials() const override {
+    return spec_.material ? this : nullptr;
+  }
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
@@ -46,6 +60,25 @@ class SpecReader final : public SlabReader, public field::BoxReader {
   }
 
  private:
+  std::size_t materials_at(std::span<const Vec3> places,
+                           std::span<std::uint16_t> out) const override {
+    std::vector<std::array<float, 3>> world(places.size());
+    for (std::size_t n = 0; n < places.size(); ++n) {
+      for (std::size_t a = 0; a < 3; ++a) {
+        world[n][a] = static_cast<float>(spec_.origin[a] + places[n][a] * spec_.spacing[a]);
+      }
+    }
+    std::vector<float> values(places.size());
+    spec_.material->sample_places(world, values);
+    std::size_t n_held = 0;
+    for (std::size_t n = 0; n < values.size(); ++n) {
+      const auto [index, held] = index_of(values[n]);
+      out[n] = index;
+      n_held += held ? 1 : 0;
+    }
+    return n_held;
+  }
+
   /// Memory for planes of samples, in a slab.
   View3<float> make_room(std::int32_t k0, std::int32_t k1, Slab& out) const {
     const Index3 dims = spec_.volume.lattice.dims();

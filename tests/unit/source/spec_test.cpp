@@ -63,6 +63,29 @@ std::unique_ptr<SlabReader> open_spec(const std::string& path) {
 
 std::filesystem::path data_folder() { return test::source_file("data"); }
 
+TEST(Spec, MaterialIsTheNearestIndex) {
+  const auto reader = open_spec_text(
+      "v.json",
+      document(
+          R"("field": "x", "material": {"type": "add", "inputs": ["x", {"type": "div", "a": "y", "b": "z"}]})"));
+  ASSERT_NE(reader->materials(), nullptr);
+  const std::vector<Vec3> places{{2.4, 0, 1}, {2.6, 0, 1},   {65535.4, 0, 1}, {-0.4, 0, 1},
+                                 {-1, 0, 1},  {70000, 0, 1}, {3, 0, 0},       {3, 1, 0}};
+  std::vector<std::uint16_t> out(places.size());
+  EXPECT_EQ(reader->materials()->materials_at(places, out), 4U);
+  EXPECT_THAT(out, ElementsAre(2, 3, 65535, 0, 0, 65535, 0, 65535));
+  EXPECT_EQ(open_spec_text("v.json", document(R"("field": "x")"))->materials(), nullptr);
+}
+
+TEST(Spec, MaterialSeesTheWorld) {
+  const auto reader = open_spec_text(
+      "v.json", R"({"format": "mc-volume", "version": 1, "field": "x", "material": "y",
+                    "grid": {"cells": [2, 2, 2], "spacing": [1, 2, 1], "origin": [0, 10, 0]}})");
+  std::vector<std::uint16_t> out(1);
+  reader->materials()->materials_at(std::vector<Vec3>{{0, 1.5, 0}}, out);
+  EXPECT_EQ(out[0], 13);
+}
+
 TEST(Spec, DemoTerrainHasTheKnownCounts) {
   const auto reader = open_spec((data_folder() / "specs/demo-terrain.json").string());
   const Volume& volume = reader->volume();
