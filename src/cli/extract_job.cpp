@@ -120,9 +120,10 @@ void Extraction::open(const std::vector<std::string>& inputs) {
 void Extraction::place_mesh() {
   check_region(reader(), plan_.extract.region);
   if (materials_of(reader()) != nullptr && !holds_materials(plan_.format)) {
-    invocation_.console.note(fmt::format("{} holds no materials, so they are left out; write ply, "
-                                         "glb or gltf",
-                                         plan_.format));
+    invocation_.console.note(
+        fmt::format("{} holds no materials, so they are left out; write ply, "
+                    "glb or gltf",
+                    plan_.format));
   }
   placement_ = place(volume(), plan_.place, plan_.format);
   report_.placement = placement_;

@@ -11,6 +11,8 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+
 #include "graph/hash.hpp"
 #include "graph/lanes-inl.hpp"
 
@@ -39,35 +41,39 @@ HWY_INLINE F perlin2(F px, F py, W seed) {
   return lerp(fade(ay), near, far) * set(kPerlin2Scale);
 }
 
-/// The cell's edge along x: both gradients there, blended.
-struct EdgeAlongX {
-  W x0, x1;  // the ends' primed cells
-  F ax, bx;  // the sample as seen from them
-  F blend;
-  HWY_INLINE F at(W yz, F y, F z) const {
-    return lerp(blend, gradient3(hash_of(x0 ^ yz), ax, y, z),
-                gradient3(hash_of(x1 ^ yz), bx, y, z));
-  }
-};
-
-HWY_INLINE F perlin3(F px, F py, F pz, W seed) {
-  const Split x = split(px);
-  const Split y = split(py);
-  const Split z = split(pz);
+template <bool kNear>
+HWY_INLINE F perlin3_at(F px, F py, F pz, W seed) {
+  const Split x = split<kNear>(px);
+  const Split y = split<kNear>(py);
+  const Split z = split<kNear>(pz);
   const W x0 = x.cell * set(kPrimeX);
   const W y0 = seed ^ (y.cell * set(kPrimeY));
   const W y1 = seed ^ (y.cell * set(kPrimeY) + set(kPrimeY));
   const W z0 = z.cell * set(kPrimeZ);
-  const W z1 = z0 + set(kPrimeZ);
-  const F ay = y.rest;
-  const F by = ay - set(1.0F);
-  const F az = z.rest;
-  const F bz = az - set(1.0F);
-  const EdgeAlongX edge{x0, x0 + set(kPrimeX), x.rest, x.rest - set(1.0F), fade(x.rest)};
-  const F v = fade(ay);
-  const F near = lerp(v, edge.at(y0 ^ z0, ay, az), edge.at(y1 ^ z0, by, az));
-  const F far = lerp(v, edge.at(y0 ^ z1, ay, bz), edge.at(y1 ^ z1, by, bz));
-  return lerp(fade(az), near, far) * set(kPerlin3Scale);
+  const W primed_x[2] = {x0, x0 + set(kPrimeX)};
+  const W primed_yz[4] = {y0 ^ z0, y1 ^ z0, y0 ^ (z0 + set(kPrimeZ)), y1 ^ (z0 + set(kPrimeZ))};
+  const F from_x[2] = {x.rest, x.rest - set(1.0F)};
+  const F from_y[2] = {y.rest, y.rest - set(1.0F)};
+  const F from_z[2] = {z.rest, z.rest - set(1.0F)};
+  // Corner n is the far one along x, y, z where bit 0, 1, 2 of n is set.
+  W hash[8];
+  for (std::size_t n = 0; n < 8; ++n) hash[n] = primed_x[n & 1] ^ primed_yz[n >> 1];
+  hash_all(hash);
+  const F u = fade(x.rest);
+  F edge[4];
+  for (std::size_t n = 0; n < 4; ++n) {
+    const F ey = from_y[n & 1];
+    const F ez = from_z[n >> 1];
+    edge[n] = lerp(u, gradient3(hash[2 * n], from_x[0], ey, ez),
+                   gradient3(hash[2 * n + 1], from_x[1], ey, ez));
+  }
+  const F v = fade(y.rest);
+  const F face = lerp(v, edge[0], edge[1]);
+  return lerp(fade(z.rest), face, lerp(v, edge[2], edge[3])) * set(kPerlin3Scale);
+}
+
+HWY_INLINE F perlin3(F x, F y, F z, W seed) {
+  return are_near(x, y, z) ? perlin3_at<true>(x, y, z, seed) : perlin3_at<false>(x, y, z, seed);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -57,9 +57,11 @@ HWY_INLINE F corner2(W mixed, F x, F y) {
   return kernel(x * x + y * y) * (kSixteen ? gradient16(hash, x, y) : gradient2(hash, x, y));
 }
 
-HWY_INLINE F corner3(W mixed, F x, F y, F z) {
-  return kernel((x * x + y * y) + z * z) * gradient3(hash_of(mixed), x, y, z);
+HWY_INLINE F hashed_corner3(W hash, F x, F y, F z) {
+  return kernel((x * x + y * y) + z * z) * gradient3(hash, x, y, z);
 }
+
+HWY_INLINE F corner3(W mixed, F x, F y, F z) { return hashed_corner3(hash_of(mixed), x, y, z); }
 
 /// With perlin2's eight gradients, or with sixteen; not scaled.
 template <bool kSixteen>
@@ -101,23 +103,21 @@ struct Step {
   }
 };
 
-HWY_INLINE F simplex3(F px, F py, F pz, W seed) {
+template <bool kNear>
+HWY_INLINE F simplex3_at(F px, F py, F pz, W seed) {
   constexpr float kSkew = 0.333333333F;
   constexpr float kUnskew = 0.166666667F;
-  const F x = clamped(px, -0x1p28F, 0x1p28F);
-  const F y = clamped(py, -0x1p28F, 0x1p28F);
-  const F z = clamped(pz, -0x1p28F, 0x1p28F);
+  const F x = kNear ? px : clamped(px, -0x1p28F, 0x1p28F);
+  const F y = kNear ? py : clamped(py, -0x1p28F, 0x1p28F);
+  const F z = kNear ? pz : clamped(pz, -0x1p28F, 0x1p28F);
   const F s = ((x + y) + z) * set(kSkew);
-  const I i = cell_of(x + s);
-  const I j = cell_of(y + s);
-  const I k = cell_of(z + s);
-  const F fi = hn::ConvertTo(Floats(), i);
-  const F fj = hn::ConvertTo(Floats(), j);
-  const F fk = hn::ConvertTo(Floats(), k);
-  const F t = ((fi + fj) + fk) * set(kUnskew);
-  const F x0 = x - (fi - t);
-  const F y0 = y - (fj - t);
-  const F z0 = z - (fk - t);
+  const Cell i = cell_at<kNear>(x + s);
+  const Cell j = cell_at<kNear>(y + s);
+  const Cell k = cell_at<kNear>(z + s);
+  const F t = ((i.floor + j.floor) + k.floor) * set(kUnskew);
+  const F x0 = x - (i.floor - t);
+  const F y0 = y - (j.floor - t);
+  const F z0 = z - (k.floor - t);
   // The order of the coordinates says which of the cell's six tetrahedra this is.
   const auto xy = hn::Ge(x0, y0);
   const auto xz = hn::Ge(x0, z0);
@@ -128,19 +128,27 @@ HWY_INLINE F simplex3(F px, F py, F pz, W seed) {
   const Step i2{hn::Or(xy, xz)};
   const Step j2{hn::Or(hn::Not(xy), yz)};
   const Step k2{hn::Not(hn::And(xz, yz))};
-  const W hx = as_words(i) * set(kPrimeX);
-  const W hy = as_words(j) * set(kPrimeY);
-  const W hz = as_words(k) * set(kPrimeZ);
+  const W hx = i.number * set(kPrimeX);
+  const W hy = j.number * set(kPrimeY);
+  const W hz = k.number * set(kPrimeZ);
   const F u1 = set(kUnskew);
   const F u2 = set(2.0F * kUnskew);
-  const F n0 = corner3(seed ^ hx ^ hy ^ hz, x0, y0, z0);
-  const F n1 = corner3(seed ^ i1.of(hx, kPrimeX) ^ j1.of(hy, kPrimeY) ^ k1.of(hz, kPrimeZ),
-                       (x0 - i1.length()) + u1, (y0 - j1.length()) + u1, (z0 - k1.length()) + u1);
-  const F n2 = corner3(seed ^ i2.of(hx, kPrimeX) ^ j2.of(hy, kPrimeY) ^ k2.of(hz, kPrimeZ),
-                       (x0 - i2.length()) + u2, (y0 - j2.length()) + u2, (z0 - k2.length()) + u2);
-  const F n3 = corner3(seed ^ (hx + set(kPrimeX)) ^ (hy + set(kPrimeY)) ^ (hz + set(kPrimeZ)),
-                       x0 - set(0.5F), y0 - set(0.5F), z0 - set(0.5F));
+  W hash[4] = {seed ^ hx ^ hy ^ hz,
+               seed ^ i1.of(hx, kPrimeX) ^ j1.of(hy, kPrimeY) ^ k1.of(hz, kPrimeZ),
+               seed ^ i2.of(hx, kPrimeX) ^ j2.of(hy, kPrimeY) ^ k2.of(hz, kPrimeZ),
+               seed ^ (hx + set(kPrimeX)) ^ (hy + set(kPrimeY)) ^ (hz + set(kPrimeZ))};
+  hash_all(hash);
+  const F n0 = hashed_corner3(hash[0], x0, y0, z0);
+  const F n1 = hashed_corner3(hash[1], (x0 - i1.length()) + u1, (y0 - j1.length()) + u1,
+                              (z0 - k1.length()) + u1);
+  const F n2 = hashed_corner3(hash[2], (x0 - i2.length()) + u2, (y0 - j2.length()) + u2,
+                              (z0 - k2.length()) + u2);
+  const F n3 = hashed_corner3(hash[3], x0 - set(0.5F), y0 - set(0.5F), z0 - set(0.5F));
   return (((n0 + n1) + n2) + n3) * set(kSimplex3Scale);
+}
+
+HWY_INLINE F simplex3(F x, F y, F z, W seed) {
+  return are_near(x, y, z) ? simplex3_at<true>(x, y, z, seed) : simplex3_at<false>(x, y, z, seed);
 }
 
 /// What the two points of a cubic lattice that are nearest to (x, y, z) give. `mixed` are the seed
