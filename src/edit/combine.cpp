@@ -71,9 +71,10 @@ void change(std::uint32_t steps, const BlockWeights& weights, const double* oper
     T* d = samples + row * kSide;
     for (std::uint32_t step = 0; step < steps; ++step) {
       for (std::size_t i = 0; i < kSide; ++i) {
-        const double value = f(widened(d[i]), w[i], b[i]);
+        const double before = widened(d[i]);
+        const double value = f(before, w[i], b[i]);
         const T next = narrowed<T>(value);
-        d[i] = w[i] > 0 && value == value ? next : d[i];
+        d[i] = w[i] > 0 && before == before && value == value ? next : d[i];
       }
     }
   });

@@ -522,7 +522,7 @@ void ReferenceVolume<T>::apply_group(const Edit& edit, const std::vector<edit::P
         case EditOp::fill:
           return;
       }
-      if (!std::isnan(value)) samples[at(p)] = narrowed(value);
+      if (!std::isnan(d) && !std::isnan(value)) samples[at(p)] = narrowed(value);
     });
   }
 }
