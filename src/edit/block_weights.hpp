@@ -48,7 +48,7 @@ class BlockWeigher {
   const EditRules& rules_;
 };
 
-/// A graph's values at the samples of a block, x fastest. `rows`: the rows that are wanted.
+/// A graph's values at the samples of a block, x fastest; only rows that meet `part` are filled.
 void sample_block(const GraphField& field, const Affine& to_place, const IndexBox& part,
                   std::span<float, kBlockSamples> out);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "edit/combine.hpp"
+#include "edit/vectors.hpp"
 #include "graph/float_math.hpp"
 
 // What operations see around a sample. Every sum has one order, so that the bits do not depend on
@@ -198,8 +199,6 @@ Index3 local_place(std::size_t n) {
   return {static_cast<std::int32_t>(n % 8), static_cast<std::int32_t>(n / 8 % 8),
           static_cast<std::int32_t>(n / 64)};
 }
-
-double length(const Vec3& v) { return __builtin_sqrt((v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]); }
 
 }  // namespace
 

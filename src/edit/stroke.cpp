@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "edit/brush.hpp"
+#include "edit/brush_path.hpp"
+#include "edit/symmetry.hpp"
+#include "edit/vectors.hpp"
 
 // Where a brush works: its path in dabs or as a sweep, copied by symmetry, each position with the
 // samples that it can reach.
@@ -11,14 +14,6 @@
 namespace mc::edit {
 
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-double length(const Vec3& v) { return __builtin_sqrt(dot(v, v)); }
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-/// a + v s
-Vec3 moved(const Vec3& a, const Vec3& v, double s) {
-  return {a[0] + v[0] * s, a[1] + v[1] * s, a[2] + v[2] * s};
-}
 
 double largest_spacing(const Affine& map) {
   double most = 0;
@@ -36,8 +31,6 @@ double cone_inradius(double below, double above, double half) {
   const double cosine = 1 / __builtin_sqrt(1 + fall * fall);
   return std::min(half, large * cosine / (1 + fall * cosine));
 }
-
-bool is_hull(ShapeType type) { return type == ShapeType::sphere || type == ShapeType::capsule; }
 
 Brush brush_of(const Edit& edit, const EditRules& rules) {
   const BrushShape& s = edit.shape;
@@ -111,168 +104,6 @@ Affine frame_at(const Turn& turn, const Vec3& center) {
   const Affine turned{{t[0], t[3], t[6], 0, t[1], t[4], t[7], 0, t[2], t[5], t[8], 0}};
   const Affine moved_back{{1, 0, 0, -center[0], 0, 1, 0, -center[1], 0, 0, 1, -center[2]}};
   return turned.after(moved_back);
-}
-
-/// Sine and cosine of a whole number of parts of a full turn: Taylor's series over an eighth of it.
-/// Error    below 1e-16; multiples of a quarter are exact.
-std::array<double, 2> sine_cosine(std::uint32_t part, std::uint32_t of) {
-  const std::uint64_t eighths = std::uint64_t{part} * 8;
-  const std::uint64_t quarter = (eighths + of) / (2 * std::uint64_t{of});  // the nearest
-  const double rest = static_cast<double>(static_cast<std::int64_t>(std::uint64_t{part} * 4) -
-                                          static_cast<std::int64_t>(quarter * of)) /
-                      static_cast<double>(of);  // of a quarter turn, within 1/2
-  const double angle = rest * 1.5707963267948966;
-  const double q = -(angle * angle);
-  double sine = 1;
-  double cosine = 1;
-  for (int n = 16; n >= 2; n -= 2) sine = 1 + q / (n * (n + 1.0)) * sine;
-  for (int n = 15; n >= 1; n -= 2) cosine = 1 + q / (n * (n + 1.0)) * cosine;
-  sine *= angle;
-  switch (quarter % 4) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
-}
-
-/// Back from the mirror images across `axes`.
-Affine mirrored(const Mirror& mirror, const std::array<bool, 3>& axes) {
-  Affine out;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (!axes[a]) continue;
-    out.m[5 * a] = -1;
-    out.m[4 * a + 3] = 2 * mirror.at[a];
-  }
-  return out;
-}
-
-/// Back from turn n of a radial symmetry.
-Affine turned_back(const Radial& radial, std::uint32_t n) {
-  const auto [sine, cosine] = sine_cosine(n, radial.count);
-  const std::size_t a = (radial.axis + 1) % 3;
-  const std::size_t b = (radial.axis + 2) % 3;
-  Affine out;
-  out.m[5 * a] = cosine;
-  out.m[4 * a + b] = sine;
-  out.m[4 * b + a] = -sine;
-  out.m[5 * b] = cosine;
-  out.m[4 * a + 3] = radial.at[a] - (cosine * radial.at[a] + sine * radial.at[b]);
-  out.m[4 * b + 3] = radial.at[b] - (cosine * radial.at[b] - sine * radial.at[a]);
-  return out;
-}
-
-bool nearly_equal(const Affine& a, const Affine& b) {
-  for (std::size_t n = 0; n < a.m.size(); ++n) {
-    if (!(std::abs(a.m[n] - b.m[n]) <= 1e-9 * (1 + std::abs(a.m[n])))) return false;
-  }
-  return true;
-}
-
-/// For each copy by symmetry the map back to the original, which comes first: for each turn, the
-/// mirror images of bits 0 to 7 (x, y, z). Copies that coincide count once.
-std::vector<Affine> copies(const Edit& edit) {
-  std::vector<Affine> out;
-  const Mirror mirror = edit.mirror.value_or(Mirror{});
-  const Radial radial = edit.radial.value_or(Radial{});
-  for (std::uint32_t n = 0; n < radial.count; ++n) {
-    const Affine back = n == 0 ? Affine{} : turned_back(radial, n);
-    for (unsigned bits = 0; bits < 8; ++bits) {
-      const std::array<bool, 3> axes{(bits & 1U) != 0, (bits & 2U) != 0, (bits & 4U) != 0};
-      if ((axes[0] && !mirror.axes[0]) || (axes[1] && !mirror.axes[1]) ||
-          (axes[2] && !mirror.axes[2])) {
-        continue;
-      }
-      const Affine map = mirrored(mirror, axes).after(back);
-      if (std::none_of(out.begin(), out.end(),
-                       [&](const Affine& other) { return nearly_equal(map, other); })) {
-        out.push_back(map);
-      }
-    }
-  }
-  return out;
-}
-
-/// A piece of a path, or a point; in the world.
-struct Stretch {
-  Vec3 from{};
-  Vec3 to{};
-  double radius = 0;
-  double end_radius = 0;
-};
-
-/// The radius of a path's brush at a part (0 to 1) of its length: only capsules taper.
-double radius_at(const BrushShape& shape, double part) {
-  return shape.type == ShapeType::capsule ? shape.radius + (shape.end_radius - shape.radius) * part
-                                          : shape.radius;
-}
-
-class PathWalk {
- public:
-  explicit PathWalk(const std::vector<Vec3>& points) : points_(points) {
-    for (std::size_t n = 1; n < points.size(); ++n) {
-      ends_.push_back(ends_.back() + mc::edit::length(minus(points[n], points[n - 1])));
-    }
-  }
-  [[nodiscard]] double length() const { return ends_.back(); }
-  /// Arc length up to point n.
-  [[nodiscard]] double at(std::size_t n) const { return ends_[n]; }
-  /// The point at arc length s, which never falls from call to call.
-  Vec3 point(double s) {
-    while (piece_ + 1 < ends_.size() - 1 && s > ends_[piece_ + 1]) ++piece_;
-    const Vec3& a = points_[piece_];
-    const double span = ends_[piece_ + 1] - ends_[piece_];
-    const double t = span > 0 ? std::min((s - ends_[piece_]) / span, 1.0) : 0;
-    return moved(a, minus(points_[piece_ + 1], a), t);
-  }
-
- private:
-  const std::vector<Vec3>& points_;
-  std::vector<double> ends_{0};
-  std::size_t piece_ = 0;
-};
-
-[[noreturn]] void refuse_positions() {
-  throw Error(ErrorKind::limit, "edit", "more than 1048576 brush positions",
-              "split the path, or space its dabs wider");
-}
-
-/// Dabs from the path's start on, each `spacing` times the radius there after the one before; a
-/// tapering radius counts at least a sixteenth of the larger end's.
-std::vector<Stretch> dabs_of(const Edit& edit, double inradius) {
-  const BrushPath& path = *edit.path;
-  PathWalk walk(path.points);
-  const bool ball = is_hull(edit.shape.type);
-  const double least = std::max(radius_at(edit.shape, 0), radius_at(edit.shape, 1)) / 16;
-  std::vector<Stretch> out;
-  for (double s = 0; s <= walk.length() * (1 + 1e-12);) {
-    const double radius =
-        radius_at(edit.shape, walk.length() > 0 ? std::min(s / walk.length(), 1.0) : 0);
-    const Vec3 at = walk.point(s);
-    out.push_back({at, at, radius, radius});
-    if (out.size() > kMostPositions) refuse_positions();
-    const double step = path.spacing * (ball ? std::max(radius, least) : inradius);
-    assert(step > 0);
-    s += step;
-  }
-  return out;
-}
-
-/// All pieces of a path at once.
-std::vector<Stretch> sweep_of(const Edit& edit) {
-  const std::vector<Vec3>& points = edit.path->points;
-  const PathWalk walk(points);
-  const double whole = walk.length() > 0 ? walk.length() : 1;
-  std::vector<Stretch> out;
-  for (std::size_t n = 1; n < points.size(); ++n) {
-    out.push_back({points[n - 1], points[n], radius_at(edit.shape, walk.at(n - 1) / whole),
-                   radius_at(edit.shape, walk.at(n) / whole)});
-  }
-  return out;
 }
 
 /// Fills what a ball needs to know of its line. One that holds all the others stands alone.
@@ -382,16 +213,6 @@ IndexBox stamped_box(const Position& at, const Index3& dims, IndexBox box) {
     clip_axis(middle - apart, middle + apart, a, box);
   }
   return box;
-}
-
-std::vector<Stretch> stretches(const Edit& edit, double inradius) {
-  const BrushShape& s = edit.shape;
-  if (edit.path) {
-    assert(edit.path->points.size() >= 2);
-    return edit.path->mode == PathMode::dabs ? dabs_of(edit, inradius) : sweep_of(edit);
-  }
-  if (s.type == ShapeType::capsule) return {{s.center, s.end, s.radius, s.end_radius}};
-  return {{s.center, s.center, s.radius, s.radius}};
 }
 
 /// One position for each stretch, each under one map back from a copy.
