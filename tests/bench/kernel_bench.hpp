@@ -63,5 +63,6 @@ void add_cells();
 void add_vertices();
 void add_noises();
 void add_chunks();
+void add_edits();
 
 }  // namespace mc::bench

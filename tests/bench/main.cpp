@@ -7,6 +7,7 @@ int main(int argc, char** argv) {
   mc::bench::add_vertices();
   mc::bench::add_noises();
   mc::bench::add_chunks();
+  mc::bench::add_edits();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   benchmark::RunSpecifiedBenchmarks();
