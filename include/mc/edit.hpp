@@ -74,6 +74,15 @@ struct Falloff {
 };
 
 /// What an edit does with the samples d that its weight w in [0, 1] reaches; s is its strength.
+/// Everything is computed in double and rounded to the samples' type once a step.
+/// - What adds (add, subtract, inflate, noise, a stamp that accumulates) is clamped: clamp(d +- s
+/// w).
+/// - What mixes stays between what it mixes: mix(d, v, t) = d + (v - d) t, and v where t >= 1.
+/// - csg mixes with max(d, b) + c for what rises (the union where the solid is above) or
+///   min(d, b) - c for what falls; b is iso and the shape's distance with the solid side's sign (of
+///   a difference the other sign), c = h h k / 4 with h = max(k - |d - b|, 0) / k, k = `smooth`.
+/// - NaN stays NaN, and what would become NaN stays what it is; only fill and a whole revert put
+///   samples as they are.
 enum class EditOp : std::uint8_t {
   add,       ///< more solid by s w, or the union with the shape (Blend::csg)
   subtract,  ///< less solid by s w, or the difference
@@ -91,8 +100,8 @@ enum class EditOp : std::uint8_t {
 enum class Blend : std::uint8_t { accumulate, csg };
 enum class SmoothKernel : std::uint8_t { box, gaussian, median };
 enum class PathMode : std::uint8_t {
-  dabs,   ///< the brush again and again, every `spacing` * radius of arc length
-  sweep,  ///< once, by the distance to the whole polyline
+  dabs,   ///< the brush again and again, every `spacing` * radius of arc length: as so many edits
+  sweep,  ///< once, by the distance to the whole polyline; a capsule's radius runs along its length
 };
 
 struct BrushPath {
@@ -106,7 +115,7 @@ struct Mirror {
   std::array<bool, 3> axes{};
   Vec3 at{};
 };
-/// The edit `count` times in all, turned around `axis` through `at`.
+/// The edit `count` times in all, each with its mirror images, turned around `axis` through `at`.
 struct Radial {
   std::uint32_t count = 1;
   std::size_t axis = 1;
