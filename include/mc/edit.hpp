@@ -214,17 +214,14 @@ class EditStore {
   /// Copies the samples of `box` (within the volume's), x fastest, in the volume's type and native
   /// byte order. `out` holds box samples * sample_size bytes.
   void read_box(const IndexBox& box, std::span<std::byte> out) const;
-  /// The materials that paint left there, 0 where none did.
-  void read_materials(const IndexBox& box, std::span<std::uint16_t> out) const;
-  [[nodiscard]] bool has_materials() const;
   [[nodiscard]] std::uint64_t n_stored_blocks() const;
   [[nodiscard]] std::uint64_t stored_bytes() const;  ///< blocks and undo
   /// A hash of all stored blocks: equal for equal edits of equal inputs.
   [[nodiscard]] std::uint64_t hash() const;
 
-  /// The edited volume behind the port of its kind: dense stays dense (what no edit touched is the
-  /// input's, also its skipping), sparse stays sparse. Keeps a reference to the store, whose edits
-  /// must rest while it is read.
+  /// The edited volume behind the port of its kind, with the materials of paint over the input's:
+  /// dense stays dense (what no edit touched is the input's, also its skipping), sparse stays
+  /// sparse. Keeps a reference to the store, whose edits must rest while it is read.
   [[nodiscard]] VolumeReader reader() const;
 
  private:

@@ -99,7 +99,9 @@ void BrushPass::work(const Index3& at, std::span<const std::uint32_t> group, std
     auto* materials = reinterpret_cast<std::uint16_t*>(block.samples());
     for (std::size_t n = 0; n < kBlockSamples; ++n) {
       const bool reached = (weights.reached[n / 64] >> (n % 64) & 1U) != 0;
-      if (reached && weights.weight[n] >= 0.5) materials[n] = edit_.material;
+      if (!reached || weights.weight[n] < 0.5) continue;
+      materials[n] = edit_.material;
+      block.active[n / 64] |= std::uint64_t{1} << (n % 64);
     }
     return;
   }
@@ -130,6 +132,11 @@ void BrushPass::compare(const std::byte* before, const Mask512& active_before, O
     out.marks.changed[row / kSide] |= differing(before + at, after + at, size)
                                       << (row % kSide * kSide);
   });
+  if (edit_.op == EditOp::paint) {  // the first paint is a change, also by the material 0
+    for (std::size_t k = 0; k < kSide; ++k) {
+      out.marks.changed[k] |= out.block->active[k] & ~active_before[k];
+    }
+  }
   out.changed = n_bits(out.marks.changed) != 0;
   if (edit_.op == EditOp::paint || world_.samples.input().leaves() == nullptr) return;
   if (edit_.op != EditOp::revert && out.changed) {

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/edited_materials.hpp"
 #include "edit/edited_reader.hpp"
 
 // An edited sparse volume as leaves and tiles.
@@ -16,18 +17,19 @@ namespace {
 
 class EditedLeaves final : public LeafReader {
  public:
-  EditedLeaves(const EditedSamples& samples, const Volume& volume)
-      : samples_(samples), volume_(volume) {
+  EditedLeaves(const World& world, const Volume& volume)
+      : samples_(world.samples), materials_(world), volume_(volume) {
     std::vector<Index3> stored;
-    stored.reserve(samples.layer().blocks().size());
-    for (const auto& [at, block] : samples.layer().blocks()) stored.push_back(at);
+    stored.reserve(samples_.layer().blocks().size());
+    for (const auto& [at, block] : samples_.layer().blocks()) stored.push_back(at);
     std::sort(stored.begin(), stored.end(), comes_before);
     merge_leaves(stored);
-    if (samples.filled()) return;
-    for (const Tile& tile : samples.input().leaves()->tiles()) add_tile(tile, stored);
+    if (samples_.filled()) return;
+    for (const Tile& tile : samples_.input().leaves()->tiles()) add_tile(tile, stored);
   }
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
+  [[nodiscard]] const MaterialReader* materials() const override { return materials_.port(); }
   [[nodiscard]] Scalar background() const override { return samples_.background(); }
   [[nodiscard]] std::span<const Index3> leaves() const override { return origins_; }
   [[nodiscard]] std::span<const Tile> tiles() const override { return tiles_; }
@@ -101,6 +103,7 @@ class EditedLeaves final : public LeafReader {
   }
 
   const EditedSamples& samples_;
+  EditedMaterials materials_;
   Volume volume_;
   std::vector<Index3> origins_;
   std::vector<std::size_t> sources_;  // the input's leaf, or kStored
@@ -109,8 +112,8 @@ class EditedLeaves final : public LeafReader {
 
 }  // namespace
 
-std::unique_ptr<LeafReader> make_leaf_reader(const EditedSamples& samples, const Volume& volume) {
-  return std::make_unique<EditedLeaves>(samples, volume);
+std::unique_ptr<LeafReader> make_leaf_reader(const World& world, const Volume& volume) {
+  return std::make_unique<EditedLeaves>(world, volume);
 }
 
 }  // namespace mc::edit

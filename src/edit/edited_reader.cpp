@@ -31,9 +31,9 @@ Volume describe(const EditedSamples& samples) {
   return out;
 }
 
-VolumeReader make_reader(const EditedSamples& samples, const Volume& volume) {
-  if (samples.input().leaves() != nullptr) return make_leaf_reader(samples, volume);
-  return make_slab_reader(samples, volume);
+VolumeReader make_reader(const World& world, const Volume& volume) {
+  if (world.samples.input().leaves() != nullptr) return make_leaf_reader(world, volume);
+  return make_slab_reader(world, volume);
 }
 
 }  // namespace mc::edit

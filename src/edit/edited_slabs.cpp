@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "edit/edited_materials.hpp"
 #include "edit/edited_reader.hpp"
 #include "field/box_reader.hpp"
 
@@ -96,13 +97,17 @@ class SampleBits {
 
 class EditedSlabs final : public SlabReader, public field::BoxReader {
  public:
-  EditedSlabs(const EditedSamples& samples, const Volume& volume)
-      : samples_(samples), volume_(volume), size_(samples.input().sample_bytes()) {
-    for (const auto& [at, block] : samples.layer().blocks()) stored_.push_back(at);
+  EditedSlabs(const World& world, const Volume& volume)
+      : samples_(world.samples),
+        materials_(world),
+        volume_(volume),
+        size_(samples_.input().sample_bytes()) {
+    for (const auto& [at, block] : samples_.layer().blocks()) stored_.push_back(at);
     std::sort(stored_.begin(), stored_.end(), comes_before);
   }
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
+  [[nodiscard]] const MaterialReader* materials() const override { return materials_.port(); }
   [[nodiscard]] bool rereads_cheaply() const override {
     return samples_.filled() || input().rereads_cheaply();
   }
@@ -161,6 +166,7 @@ class EditedSlabs final : public SlabReader, public field::BoxReader {
   void own_planes(Slab& out) const;
 
   const EditedSamples& samples_;
+  EditedMaterials materials_;
   Volume volume_;
   std::size_t size_;
   std::vector<Index3> stored_;  // by (z, y, x)
@@ -299,8 +305,8 @@ void EditedSlabs::copy_input(const IndexBox& part, Slab& out) const {
 
 }  // namespace
 
-std::unique_ptr<SlabReader> make_slab_reader(const EditedSamples& samples, const Volume& volume) {
-  return std::make_unique<EditedSlabs>(samples, volume);
+std::unique_ptr<SlabReader> make_slab_reader(const World& world, const Volume& volume) {
+  return std::make_unique<EditedSlabs>(world, volume);
 }
 
 }  // namespace mc::edit

@@ -10,18 +10,9 @@
 #include <optional>
 #include <vector>
 
-#include "edit/edited_samples.hpp"
-#include "edit/layer.hpp"
+#include "edit/world.hpp"
 
 namespace mc::edit {
-
-/// What edits change: samples, and the materials painted on them.
-struct World {
-  explicit World(const VolumeReader& input) : samples(input), materials(sizeof(std::uint16_t)) {}
-
-  EditedSamples samples;
-  Layer materials;
-};
 
 /// Steps back and forth. A step holds, for each block that it changed, the block of the other time;
 /// taking it swaps them.

@@ -177,19 +177,6 @@ void EditStore::read_box(const IndexBox& box, std::span<std::byte> out) const {
   state_->world.samples.read_box(box, out);
 }
 
-void EditStore::read_materials(const IndexBox& box, std::span<std::uint16_t> out) const {
-  std::fill(out.begin(), out.end(), std::uint16_t{0});
-  if (!has_materials()) return;
-  edit::for_blocks_of(box, [&](const Index3& at) {
-    const edit::Block* block = state_->world.materials.find(at);
-    if (block == nullptr) return;
-    edit::copy_from_block(at, block->samples(), sizeof(std::uint16_t), box,
-                          std::as_writable_bytes(out).data());
-  });
-}
-
-bool EditStore::has_materials() const { return !state_->world.materials.blocks().empty(); }
-
 std::uint64_t EditStore::n_stored_blocks() const {
   return state_->world.samples.layer().blocks().size() + state_->world.materials.blocks().size();
 }
@@ -204,8 +191,6 @@ std::uint64_t EditStore::hash() const {
   return h;
 }
 
-VolumeReader EditStore::reader() const {
-  return edit::make_reader(state_->world.samples, volume());
-}
+VolumeReader EditStore::reader() const { return edit::make_reader(state_->world, volume()); }
 
 }  // namespace mc
