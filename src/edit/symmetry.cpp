@@ -6,37 +6,22 @@
 #include <cmath>
 #include <cstdint>
 
+#include "base/sine_cosine.hpp"
+
 // Mirror images and turns of a brush, by arithmetic that is the same everywhere.
 
 namespace mc::edit {
 
 namespace {
 
-/// Sine and cosine of a whole number of parts of a full turn: Taylor's series over an eighth of it.
-/// Error    below 1e-16; multiples of a quarter are exact.
-std::array<double, 2> sine_cosine(std::uint32_t part, std::uint32_t of) {
+/// Of a whole number of parts of a full turn; multiples of a quarter are exact.
+base::SineCosine sine_cosine(std::uint32_t part, std::uint32_t of) {
   const std::uint64_t eighths = std::uint64_t{part} * 8;
   const std::uint64_t quarter = (eighths + of) / (2 * std::uint64_t{of});  // the nearest
   const double rest = static_cast<double>(static_cast<std::int64_t>(std::uint64_t{part} * 4) -
                                           static_cast<std::int64_t>(quarter * of)) /
                       static_cast<double>(of);  // of a quarter turn, within 1/2
-  const double angle = rest * 1.5707963267948966;
-  const double q = -(angle * angle);
-  double sine = 1;
-  double cosine = 1;
-  for (int n = 16; n >= 2; n -= 2) sine = 1 + q / (n * (n + 1.0)) * sine;
-  for (int n = 15; n >= 1; n -= 2) cosine = 1 + q / (n * (n + 1.0)) * cosine;
-  sine *= angle;
-  switch (quarter % 4) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
+  return base::sine_cosine(quarter, rest * 1.5707963267948966);
 }
 
 /// Back from the mirror images across `axes`.

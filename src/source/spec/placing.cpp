@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sine_cosine.hpp"
 #include "mc/field.hpp"
 
 namespace mc::source {
@@ -12,38 +13,13 @@ namespace {
 
 double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
-/// 1 + q/(first (first + 1)) (1 + q/((first + 2) (first + 3)) (1 + ...)): Taylor's series of sine
-/// over r (first = 2) and cosine (first = 1) at q = -r^2. Its rest is below 1e-17 for |r| <= pi/4.
-double series(double q, int first) {
-  double sum = 1;
-  for (int n = first + 14; n >= first; n -= 2) {
-    sum = 1 + q / (n * (n + 1.0)) * sum;
-  }
-  return sum;
-}
-
-struct SineCosine {
-  double sine;
-  double cosine;
-};
-
 /// The angle is reduced in degrees, which is exact.
-SineCosine sine_cosine(double degrees) {
+base::SineCosine sine_cosine(double degrees) {
   const double turn = std::fmod(degrees, 360.0);
   const double quarters = std::floor(turn / 90.0 + 0.5);
-  const double r = (turn - 90.0 * quarters) * 0.017453292519943295;
-  const double sine = r * series(-(r * r), 2);
-  const double cosine = series(-(r * r), 1);
-  switch (static_cast<int>(quarters) & 3) {
-    case 0:
-      return {sine, cosine};
-    case 1:
-      return {cosine, -sine};
-    case 2:
-      return {-sine, -cosine};
-    default:
-      return {-cosine, sine};
-  }
+  // From -4 to 4; four more leave the turn as it is.
+  return base::sine_cosine(static_cast<std::uint64_t>(quarters + 4),
+                           (turn - 90.0 * quarters) * 0.017453292519943295);
 }
 
 }  // namespace
