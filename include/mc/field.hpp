@@ -55,6 +55,36 @@ struct IndexBox {
   [[nodiscard]] bool contains(const IndexBox& other) const;
   bool operator==(const IndexBox&) const = default;
 };
+[[nodiscard]] inline bool is_empty(const IndexBox& box) {
+  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
+}
+[[nodiscard]] inline IndexBox common_part(const IndexBox& a, const IndexBox& b) {
+  IndexBox out;
+  for (std::size_t n = 0; n < 3; ++n) {
+    out.lo[n] = a.lo[n] > b.lo[n] ? a.lo[n] : b.lo[n];
+    out.hi[n] = a.hi[n] < b.hi[n] ? a.hi[n] : b.hi[n];
+  }
+  return out;
+}
+/// The least box around both; an empty one adds nothing.
+[[nodiscard]] inline IndexBox joined(const IndexBox& a, const IndexBox& b) {
+  if (is_empty(a)) return b;
+  if (is_empty(b)) return a;
+  IndexBox out;
+  for (std::size_t n = 0; n < 3; ++n) {
+    out.lo[n] = a.lo[n] < b.lo[n] ? a.lo[n] : b.lo[n];
+    out.hi[n] = a.hi[n] > b.hi[n] ? a.hi[n] : b.hi[n];
+  }
+  return out;
+}
+/// With n more samples on all sides.
+[[nodiscard]] inline IndexBox grown(IndexBox box, std::int32_t n) {
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.lo[a] -= n;
+    box.hi[a] += n;
+  }
+  return box;
+}
 
 /// Where samples are: their index box, and where an index lies in the world.
 struct Lattice {

@@ -28,10 +28,6 @@ Json bounds_json(const Bounds& bounds) {
 
 }  // namespace
 
-bool is_empty(const IndexBox& box) {
-  return box.hi[0] < box.lo[0] || box.hi[1] < box.lo[1] || box.hi[2] < box.lo[2];
-}
-
 std::string to_json(const RecordReport& report) {
   Json json;
   json["record"] = report.number;

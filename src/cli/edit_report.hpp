@@ -42,9 +42,6 @@ struct EditTotals {
   std::vector<std::string> warnings;
 };
 
-/// Whether no sample lies in the box.
-[[nodiscard]] bool is_empty(const IndexBox& box);
-
 std::string to_json(const RecordReport& report);
 std::string to_json(const EditTotals& totals);
 

@@ -28,22 +28,9 @@ const ExtractPlan* mesh_plan(const EditOutput& output) {
   return std::get_if<ExtractPlan>(&output.plan);
 }
 
-/// Grows `box` by `other`.
-void include_box(IndexBox& box, const IndexBox& other) {
-  if (is_empty(other)) return;
-  if (is_empty(box)) {
-    box = other;
-    return;
-  }
-  for (std::size_t a = 0; a < 3; ++a) {
-    box.lo[a] = std::min(box.lo[a], other.lo[a]);
-    box.hi[a] = std::max(box.hi[a], other.hi[a]);
-  }
-}
-
 /// Samples that `more` touched, besides those of `sum`.
 void include(EditEffect& sum, const EditEffect& more) {
-  include_box(sum.touched, more.touched);
+  sum.touched = joined(sum.touched, more.touched);
   sum.n_samples += more.n_samples;
   sum.n_changed += more.n_changed;
   sum.n_dabs += more.n_dabs;

@@ -109,29 +109,6 @@ class BlockPool {
   return a[0] < b[0];
 }
 
-[[nodiscard]] inline bool is_empty(const IndexBox& box) {
-  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
-}
-[[nodiscard]] inline IndexBox common_part(const IndexBox& a, const IndexBox& b) {
-  IndexBox out;
-  for (std::size_t n = 0; n < 3; ++n) {
-    out.lo[n] = a.lo[n] > b.lo[n] ? a.lo[n] : b.lo[n];
-    out.hi[n] = a.hi[n] < b.hi[n] ? a.hi[n] : b.hi[n];
-  }
-  return out;
-}
-/// The least box around both; an empty one adds nothing.
-[[nodiscard]] inline IndexBox joined(const IndexBox& a, const IndexBox& b) {
-  if (is_empty(a)) return b;
-  if (is_empty(b)) return a;
-  IndexBox out;
-  for (std::size_t n = 0; n < 3; ++n) {
-    out.lo[n] = a.lo[n] < b.lo[n] ? a.lo[n] : b.lo[n];
-    out.hi[n] = a.hi[n] > b.hi[n] ? a.hi[n] : b.hi[n];
-  }
-  return out;
-}
-
 /// The least box around the set samples of a block; empty where there are none.
 [[nodiscard]] inline IndexBox box_of(const Index3& block, const Mask512& mask) {
   std::uint64_t plane = 0;

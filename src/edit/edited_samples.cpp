@@ -2,7 +2,6 @@
 #include "edit/edited_samples.hpp"
 
 #include <cassert>
-#include <cstring>
 
 // Boxes of samples from the blocks that edits made and from what lies under them.
 
@@ -24,9 +23,7 @@ Scalar EditedSamples::background() const {
 
 void EditedSamples::read_base_box(const IndexBox& box, std::span<std::byte> out) const {
   if (!filled_) return input_.read_box(box, out);
-  for (std::size_t at = 0; at < out.size(); at += input_.sample_bytes()) {
-    std::memcpy(out.data() + at, filled_->bytes.data(), input_.sample_bytes());
-  }
+  fill_samples(out.data(), out.size() / input_.sample_bytes(), *filled_, input_.sample_bytes());
 }
 
 void EditedSamples::read_box(const IndexBox& box, std::span<std::byte> out) const {

@@ -276,9 +276,7 @@ void EditedSlabs::complete(Slab& out) const {
   const IndexBox planes = common_part(box_of_planes(out), out.sides.box());
   std::vector<IndexBox> rings;  // what must be there
   for_stored(planes.lo[2], planes.hi[2] + 1, kReach, [&](const Index3& at) {
-    IndexBox ring = samples_of(at);
-    for (std::size_t a = 0; a < 3; ++a) ring.lo[a] -= kReach, ring.hi[a] += kReach;
-    ring = common_part(ring, planes);
+    const IndexBox ring = common_part(grown(samples_of(at), kReach), planes);
     if (!is_empty(ring)) rings.push_back(ring);
   });
   if (rings.empty()) return;

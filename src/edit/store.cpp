@@ -48,7 +48,7 @@ struct EditStore::State {
     IndexBox out = world.samples.input().extent();
     if (world.samples.input().leaves() == nullptr) return out;
     for (const auto& [at, block] : world.samples.layer().blocks()) {
-      out = edit::joined(out, edit::samples_of(at));
+      out = joined(out, edit::samples_of(at));
     }
     return out;
   }

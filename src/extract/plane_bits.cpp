@@ -7,25 +7,6 @@
 namespace mc::extraction {
 
 namespace {
-/// A box with n more samples on all sides.
-IndexBox grown(IndexBox box, std::int32_t n) {
-  for (std::size_t a = 0; a < 3; ++a) {
-    box.lo[a] -= n;
-    box.hi[a] += n;
-  }
-  return box;
-}
-
-/// What two boxes have in common.
-IndexBox common(const IndexBox& a, const IndexBox& b) {
-  IndexBox out;
-  for (std::size_t n = 0; n < 3; ++n) {
-    out.lo[n] = std::max(a.lo[n], b.lo[n]);
-    out.hi[n] = std::min(a.hi[n], b.hi[n]);
-  }
-  return out;
-}
-
 /// Half of a small second cache: what was read last is still there when its vertices are made.
 constexpr std::size_t kBandBytes = 1U << 18U;
 constexpr std::size_t kMinBandRows = 64;
@@ -46,8 +27,8 @@ IndexBox PlaneClassifier::whole() const { return grown(region_, pad_); }
 void PlaneClassifier::set_part(const IndexBox& part) {
   assert(whole().contains(part));
   part_ = part;
-  known_ = common(part, region_);
-  box_ = common(grown(part, ring_), region_);
+  known_ = common_part(part, region_);
+  box_ = common_part(grown(part, ring_), region_);
   row_samples_ = static_cast<std::size_t>(part.extent(0));
   n_rows_ = static_cast<std::size_t>(part.extent(1));
   n_words_ = padded_words(row_samples_);

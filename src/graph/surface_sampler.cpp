@@ -17,13 +17,8 @@ constexpr std::int32_t kMostPlanes = 16;
 constexpr std::int32_t kReach = 2;
 
 /// A part of the lattice with all that must lie on its side for it to be left out.
-IndexBox grown(const IndexBox& part, const IndexBox& within) {
-  IndexBox out;
-  for (std::size_t a = 0; a < 3; ++a) {
-    out.lo[a] = std::max(part.lo[a] - kReach, within.lo[a]);
-    out.hi[a] = std::min(part.hi[a] + kReach, within.hi[a]);
-  }
-  return out;
+IndexBox with_surroundings(const IndexBox& part, const IndexBox& within) {
+  return common_part(grown(part, kReach), within);
 }
 
 std::int32_t ceil_div(std::int64_t a, std::int64_t b) {
@@ -89,7 +84,7 @@ void SurfaceSampler::take_column(const IndexBox& column) {
 /// Bounds the values of `code` over a part and its surroundings, and so the field.
 SurfaceSampler::Side SurfaceSampler::bound(const IndexBox& part,
                                            std::span<const Instruction> code) {
-  const IndexBox all = grown(part, box_);
+  const IndexBox all = with_surroundings(part, box_);
   WorldBox world;
   for (std::size_t a = 0; a < 3; ++a) world[a] = grid_.range(a, all.lo[a], all.hi[a]);
   for (const Instruction& i : code) {
@@ -124,7 +119,7 @@ void SurfaceSampler::run_places(std::size_t n, std::span<const Instruction> flat
 
 /// Computes what does not depend on y, first around the column, then in it: that stays.
 void SurfaceSampler::run_flat(const IndexBox& column, std::span<const Instruction> flat) {
-  const IndexBox around = grown(column, box_);
+  const IndexBox around = with_surroundings(column, box_);
   for (const bool inside : {false, true}) {
     std::size_t n = 0;
     for (std::int32_t k = around.lo[2]; k <= around.hi[2]; ++k) {

@@ -53,10 +53,6 @@ IndexBox ChunkGrid::reached(const IndexBox& samples) const {
   return {chunk_of(cells.lo), chunk_of(cells.hi)};
 }
 
-bool is_empty(const IndexBox& box) {
-  return box.lo[0] > box.hi[0] || box.lo[1] > box.hi[1] || box.lo[2] > box.hi[2];
-}
-
 std::uint64_t count_of(const IndexBox& box) {
   if (is_empty(box)) return 0;
   constexpr std::uint64_t kMost = std::numeric_limits<std::int64_t>::max();

@@ -35,7 +35,6 @@ class ChunkGrid {
   IndexBox chunks_;
 };
 
-[[nodiscard]] bool is_empty(const IndexBox& box);
 /// Numbers in a box; at most 2^63 - 1, as of 2^31 along each axis it could be more.
 [[nodiscard]] std::uint64_t count_of(const IndexBox& box);
 /// Appends all indices of a box, ordered by (z, y, x).
