@@ -2,12 +2,13 @@
 #include "cli/edit_session.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <utility>
 
+#include "cli/chosen_grid.hpp"
 #include "cli/extract_job.hpp"
+#include "cli/output_probe.hpp"
 #include "cli/region.hpp"
 #include "cli/surface_choice.hpp"
 #include "cli/values.hpp"
@@ -78,11 +79,9 @@ void EditSession::look_at_write(const source::ScriptRecord& record) {
   }
 }
 
-/// An output that cannot be written is found before the work. Devices and FIFOs are left alone.
+/// An output that cannot be written is found before the work.
 void EditSession::probe(const EditOutput& output) const {
-  struct stat status {};
-  const bool exists = output.path != "-" && stat(output.path.c_str(), &status) == 0;
-  if (output.path == "-" || (exists && !S_ISREG(status.st_mode))) return;
+  if (!can_be_probed(output.path)) return;
   if (const ExtractPlan* mesh = mesh_plan(output)) {
     open_mesh_sink(output.path, mesh->sink);
   } else {
@@ -102,11 +101,7 @@ void EditSession::open_input() {
   source_.emplace(open_source(inputs, plan_.surface.source, invocation_.console));
   totals_.input = source_->place;
   check_region(source_->reader, plan_.surface.extract.region);
-  if (!plan_.surface.source.grid && !source_->other_grids.empty()) {
-    invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
-                                         source_->place, volume_of(source_->reader).name,
-                                         fmt::join(source_->other_grids, ", ")));
-  }
+  note_chosen_grid(*source_, plan_.surface.source, invocation_.console);
 }
 
 /// Once, of the input: edits do not move the surface's value.

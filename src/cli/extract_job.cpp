@@ -2,13 +2,14 @@
 #include "cli/extract_job.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "cli/chosen_grid.hpp"
+#include "cli/output_probe.hpp"
 #include "cli/placement.hpp"
 #include "cli/region.hpp"
 #include "cli/surface_choice.hpp"
@@ -110,11 +111,7 @@ void Extraction::open(const std::vector<std::string>& inputs) {
   SourceOptions options = plan_.source;
   options.streams = true;
   timed("open", [&] { take(opened_.emplace(open_source(inputs, options, invocation_.console))); });
-  if (!plan_.source.grid && !source_->other_grids.empty()) {
-    invocation_.console.note(fmt::format("{}: grid {} is taken; others: {}; choose with --grid",
-                                         source_->place, volume().name,
-                                         fmt::join(source_->other_grids, ", ")));
-  }
+  note_chosen_grid(*source_, plan_.source, invocation_.console);
 }
 
 void Extraction::place_mesh() {
@@ -198,13 +195,9 @@ void Extraction::choose_surface() {
   }
 }
 
-/// An output that cannot be written is found before the data are read for the iso. Devices and
-/// FIFOs are left alone: opening them is felt at their other end.
+/// An output that cannot be written is found before the data are read for the iso.
 void Extraction::probe_output() const {
-  struct stat status {};
-  const bool exists = output_ != "-" && stat(output_.c_str(), &status) == 0;
-  if (output_ == "-" || (exists && !S_ISREG(status.st_mode))) return;
-  open_mesh_sink(output_, plan_.sink);
+  if (can_be_probed(output_)) open_mesh_sink(output_, plan_.sink);
 }
 
 /// The volume's, where the output can hold them.

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "cli/chosen_grid.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
@@ -30,6 +31,7 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
   // All planes are written in order; a slice or a region is not all of them.
   plan.source.streams = !plan.slice && !plan.region;
   const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
+  note_chosen_grid(source, plan.source, invocation.console);
   check_region(source.reader, plan.region);
   if (plan.slice) {
     write_slice(source.reader, plan, invocation);

@@ -152,6 +152,15 @@ class Vdb(RealVolume):
         self.assertEqual(222, mesh_files.read_ply(SCRATCH / "first.ply").n_vertices)
         self.assertIn("density[1]", done.stderr.decode())
         self.assertIn("density[2]", done.stderr.decode())
+        script = SCRATCH / "none.json"
+        script.write_text('{"format":"mc-edits","version":1,"edits":[]}', encoding="utf-8")
+        for words in (["sample", grids], ["edit", grids, "--script", script]):
+            done = mc(*words, "-o", SCRATCH / "first.nrrd", "--force")
+            self.assertEqual(0, done.returncode, done.stderr.decode())
+            self.assertIn("grid density[2] is taken; others: density[1], density[0]",
+                          done.stderr.decode())
+            done = mc(*words, "--grid", "#0", "-o", SCRATCH / "first.nrrd", "--force")
+            self.assertNotIn("is taken", done.stderr.decode())
 
     def test_the_default_surface_of_a_level_set_is_its_zero(self):
         (entry,) = reference("vdb-zeno-sphere-levelset")
