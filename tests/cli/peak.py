@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Peak memory under --memory: white noise, whose mesh is many times the volume, and a document.
+
+    peak.py --mc MC
+
+Anonymous resident memory is looked at every millisecond while the program runs: mapped input does
+not count. The same noise with all the memory it wants must take more than the budget, or the test
+would show nothing.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+DATA = pathlib.Path(__file__).resolve().parent.parent.parent / "data"
+MIB = 1 << 20
+DIMS = (1024, 1024, 8)
+NOISE = ["--dims", ",".join(map(str, DIMS)), "--type", "u8", "--iso", "128"]
+
+
+def anonymous_bytes(pid):
+    """Now; 0 where the process has ended."""
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text(encoding="ascii")
+    except OSError:
+        return 0
+    for line in status.splitlines():
+        if line.startswith("RssAnon:"):
+            return int(line.split()[1]) * 1024
+    return 0
+
+
+def peak(words, stdin=subprocess.DEVNULL):
+    """Greatest anonymous memory of a run that must succeed."""
+    run = subprocess.Popen(words, stdin=stdin, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    most = 0
+    while run.poll() is None:
+        most = max(most, anonymous_bytes(run.pid))
+        time.sleep(0.001)
+    assert run.returncode == 0, (words, run.stderr.read())
+    return most
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--mc", required=True)
+    mc = parser.parse_args().mc
+    faults = 0
+    with tempfile.TemporaryDirectory(prefix="mc-peak-") as folder:
+        noise = pathlib.Path(folder) / "noise.raw"
+        noise.write_bytes(os.urandom(DIMS[0] * DIMS[1] * DIMS[2]))
+        terrain = json.loads((DATA / "specs/terrain.json").read_text(encoding="utf-8"))
+        terrain["grid"] = {"cells": [512, 192, 512], "spacing": 0.5, "origin": [-128, -24, -128]}
+        spec = pathlib.Path(folder) / "terrain.json"
+        spec.write_text(json.dumps(terrain), encoding="utf-8")
+        out = pathlib.Path(folder) / "out"
+
+        def extract(budget, threads, to, *words, stdin=None, output=None):
+            nonlocal faults
+            command = [mc, "extract", *map(str, words), "-q", "--force", "--memory", f"{budget}MiB",
+                       "--threads", str(threads), "--to", to, "-o", str(output or f"{out}.{to}")]
+            most = peak(command, *([stdin] if stdin else []))
+            if budget < 1024:
+                faults += most > budget * MIB
+            print(f"{budget} MiB, {threads} threads, {to}: {most / MIB:.1f} MiB"
+                  f"{'  TOO MUCH' if budget < 1024 and most > budget * MIB else ''}")
+            return most
+
+        for threads in (1, 2):
+            for to in ("ply", "glb", "obj", "stl"):
+                extract(64, threads, to, noise, *NOISE)
+            extract(96, threads, "glb", spec)
+        with noise.open("rb") as data:
+            with subprocess.Popen(["cat"], stdin=data, stdout=subprocess.PIPE) as cat:
+                extract(64, 2, "ply", "-", *NOISE, stdin=cat.stdout, output="-")
+        if extract(4096, 2, "ply", noise, *NOISE) <= 64 * MIB:
+            print("the noise is too small to show anything")
+            faults += 1
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
