@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/fuzz_images.hpp"
+#include "support/fuzz_streams.hpp"
 #include "support/fuzz_volumes.hpp"
 #include "support/source_files.hpp"
 
@@ -48,6 +49,22 @@ TEST(Corpus, Vdb) {
 #endif
 
 TEST(Corpus, Raw) { EXPECT_EQ(readable("raw"), std::vector<std::string>{"u8_2x3.raw"}); }
+
+// One picture alone is not a volume, whatever it holds.
+TEST(Corpus, Stream) {
+  std::vector<std::string> names{"good-everything.json", "plain.nrrd"};
+#if MC_WITH_GZIP
+  names.push_back("packed.nrrd.gz");
+#endif
+#if MC_WITH_ZSTD
+  names.insert(names.end(), {"followed.nrrd.zst", "packed.nrrd.zst"});
+#endif
+#if MC_WITH_VDB
+  names.push_back("bool_zip.vdb");
+#endif
+  std::ranges::sort(names);
+  EXPECT_EQ(readable("stream", test::stream_and_read), names);
+}
 
 #if MC_WITH_EXR
 TEST(Corpus, Exr) {
