@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hwy/targets.h"
 
-// What Highway's dispatch asks for at run time: which targets this machine offers, and which is
-// chosen. Highway's own library answers both, but times its clock for its benchmarks when it is
+// What Highway asks for at run time: which targets this machine offers, which is chosen, and where
+// an assertion of a debug build fails. Highway's own library answers, but times its clock for its benchmarks when it is
 // loaded, which takes longer than a small run of ours: 5 ms. On x86 it is therefore not linked.
 //
 // Source   Highway 1.0.3, hwy/targets.cc. The definitions are weak: a program that links the
@@ -12,7 +12,10 @@
 
 #include <cpuid.h>
 
+#include <cstdarg>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 
 namespace {
 
@@ -75,6 +78,16 @@ __attribute__((weak)) int64_t SupportedTargets() {
 __attribute__((weak)) ChosenTarget& GetChosenTarget() {
   static ChosenTarget chosen;
   return chosen;
+}
+
+__attribute__((weak)) void Abort(const char* file, int line, const char* format, ...) {
+  std::va_list values;
+  va_start(values, format);
+  std::fprintf(stderr, "%s:%d: ", file, line);
+  std::vfprintf(stderr, format, values);
+  std::fputc('\n', stderr);
+  va_end(values);
+  std::abort();
 }
 
 }  // namespace hwy

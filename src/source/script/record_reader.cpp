@@ -189,7 +189,9 @@ void RecordReader::fill_brush(Edit& edit, ObjectReader& keys) {
   const bool on_path = keys.value().find("path") != nullptr;
   if (shape != nullptr) edit.shape = read_shape(document_, context_, *shape, on_path);
   if (edit.path && edit.path->mode == PathMode::dabs && !(path_radius(edit.shape) > 0)) {
-    document_.fault(*shape, "has no radius to space dabs by: expected a \"radius\" above 0");
+    if (shape != nullptr) {
+      document_.fault(*shape, "has no radius to space dabs by: expected a \"radius\" above 0");
+    }
     edit.path.reset();
   }
   if (edit.op == EditOp::stamp) {
