@@ -57,8 +57,13 @@ struct Split {
   F rest;
 };
 
-/// Floor of |v| <= 2^30.
-HWY_INLINE I cell_of(F v) { return hn::ConvertTo(Integers(), hn::Floor(v)); }
+/// Floor of |v| <= 2^30. Any number for NaN, which only an instruction may convert.
+HWY_INLINE I cell_of(F v) {
+#if HWY_TARGET == HWY_EMU128 || HWY_TARGET == HWY_SCALAR
+  v = hn::IfThenElseZero(hn::Eq(v, v), v);
+#endif
+  return hn::ConvertTo(Integers(), hn::Floor(v));
+}
 
 /// The floor of a number, which names a cell. As a float it is never -0.
 struct Cell {
