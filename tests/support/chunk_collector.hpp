@@ -102,7 +102,7 @@ struct WeldedSurface {
     }
     for (std::size_t n = 0; n < n_indices; n += 3) {
       std::array<Vertex, 3> t{own[indices[n]], own[indices[n + 1]], own[indices[n + 2]]};
-      std::ranges::rotate(t, std::ranges::min_element(t));
+      std::rotate(t.begin(), std::ranges::min_element(t), t.end());
       triangles.push_back(t);
     }
     vertices.insert(vertices.end(), own.begin(), own.end());

@@ -169,7 +169,7 @@ TEST(White, IsNotCorrelated) {
   constexpr std::int32_t kSide = 64;
   const auto values = sampled(graph, graph.add(make(NodeType::white, {}, {1})), {-32, -32, -32},
                               {1, 1, 1}, {kSide, kSide, kSide});
-  for (const std::size_t step : {1, kSide, kSide * kSide}) {
+  for (const std::size_t step : {1U, unsigned{kSide}, unsigned{kSide * kSide}}) {
     double sum = 0;
     for (std::size_t n = step; n < values.size(); ++n) {
       sum += double{values[n]} * double{values[n - step]};

@@ -20,7 +20,7 @@ TEST(MoveWords, IsAnAdditionOnEveryTarget) {
     ASSERT_TRUE(extraction::set_simd_target(target));
     for (const Stores stores : {Stores::cached, Stores::streamed}) {
       for (std::size_t at = 0; at < 20; ++at) {
-        for (const std::size_t n : {0, 1, 5, 16, 33, 100, 150}) {
+        for (const std::size_t n : {0U, 1U, 5U, 16U, 33U, 100U, 150U}) {
           std::vector<std::uint32_t> to(200, 7);
           move_words(from.data() + 3, n, 300, to.data() + at, stores);
           for (std::size_t i = 0; i < to.size(); ++i) {

@@ -108,7 +108,7 @@ TEST(Packing, UnpacksMembersAndFramesInAnySteps) {
   const std::string text = counting_bytes(1000);
   const std::string gzip = test::gzip_bytes(text) + test::gzip_bytes("") + test::gzip_bytes(text);
   const std::string zstd = test::zstd_bytes(text) + test::zstd_bytes("") + test::zstd_bytes(text);
-  for (const std::size_t step : {1, 7, 1000, 1999, 4096}) {
+  for (const std::size_t step : {1U, 7U, 1000U, 1999U, 4096U}) {
     EXPECT_EQ(unpack(gzip, step), text + text) << step;
     EXPECT_EQ(unpack(zstd, step), text + text) << step;
   }
