@@ -15,7 +15,7 @@ namespace mc::edit {
 
 namespace {
 
-/// To the nearest integer, ties to even; saturates.
+/// To the nearest integer, ties to even; saturates. Some integer for NaN, which no sample takes.
 template <class T>
 T rounded(double v) {
   using Limits = std::numeric_limits<T>;
@@ -23,10 +23,11 @@ T rounded(double v) {
   constexpr auto kHi = static_cast<double>(Limits::max());
   if constexpr (sizeof(T) < sizeof(double)) {
     constexpr double kWhole = 0x1.8p52;  // adding it leaves no bits for a fraction
-    const double held = v < kLo ? kLo : (v > kHi ? kHi : v);
+    const double below = v < kHi ? v : kHi;
+    const double held = below > kLo ? below : kLo;
     return static_cast<T>((held + kWhole) - kWhole);
   } else {
-    if (v >= kHi) return Limits::max();  // kHi is 2^63
+    if (!(v < kHi)) return Limits::max();  // kHi is 2^63
     return v <= kLo ? Limits::min() : static_cast<T>(__builtin_nearbyint(v));
   }
 }

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <new>
 
-// The program's own operator new, which counts. The forms for arrays and for no exceptions end
-// here as well.
+// The program's own operator new, which counts. The forms for arrays end here as well; those for no
+// exceptions do by default, but not where a sanitizer brings its own.
 
 namespace {
 std::atomic<std::uint64_t> count{0};
@@ -16,6 +16,10 @@ void* operator new(std::size_t n_bytes) {
   ++count;
   if (void* memory = std::malloc(n_bytes == 0 ? 1 : n_bytes)) return memory;
   throw std::bad_alloc();
+}
+void* operator new(std::size_t n_bytes, const std::nothrow_t& /*none*/) noexcept {
+  ++count;
+  return std::malloc(n_bytes == 0 ? 1 : n_bytes);
 }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t /*n_bytes*/) noexcept { std::free(memory); }

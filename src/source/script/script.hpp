@@ -59,7 +59,7 @@ class Script {
   /// `within` bounds the files that it names.
   /// Errors   usage: every fault of the header, or of the document; input: cannot be read.
   explicit Script(const std::string& path, const SpecNesting& within = {});
-  /// The same over a text in memory; `place` is how messages name it.
+  /// The same over a text in memory, which must outlive it; `place` is how messages name it.
   Script(std::string place, std::string_view text);
   ~Script();
   Script(Script&& other) noexcept;

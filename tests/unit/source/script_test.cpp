@@ -179,7 +179,8 @@ TEST(Script, NamedNodesServeEveryRecord) {
 }
 
 TEST(Script, ABadRecordLeavesThoseAfterItReadable) {
-  Script script("e.jsonl", kHeader + "{\"op\":\"fill\"}\n{\"op\":\"fill\",\"value\":1}\n");
+  const std::string text = kHeader + "{\"op\":\"fill\"}\n{\"op\":\"fill\",\"value\":1}\n";
+  Script script("e.jsonl", text);
   try {
     script.next();
     ADD_FAILURE() << "nothing was thrown";
