@@ -31,6 +31,8 @@ struct SinkOptions {
   /// Facts written into the file (PLY/OBJ comments, glTF asset.extras), in order. Never time, host,
   /// path, threads, memory or SIMD target.
   std::vector<std::pair<std::string, std::string>> provenance{};
+  /// GLB only: finish() puts the mesh's bytes there, and no file is made. Must outlive the sink.
+  Buffer<std::byte>* memory = nullptr;
 };
 
 /// The format that `options.to` or the extension of `path` names ("ply" ... "raw").

@@ -138,6 +138,9 @@ std::unique_ptr<MeshSink> open_mesh_sink(const std::string& path, const SinkOpti
     throw Error(ErrorKind::usage, "--precision", name + " has one precision only",
                 "leave it out, or write ply");
   }
+  if (options.memory != nullptr && name != "glb") {
+    throw Error(ErrorKind::usage, path, name + " cannot be written to memory", "write glb");
+  }
   return format.open(path, options);
 }
 

@@ -2,6 +2,7 @@
 #include "sink/output_file.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -39,6 +40,8 @@ struct OutputFile::State {
 
   void open(const std::string& path, const std::string& place);
   void open_in_place(const std::string& path, const std::string& place);
+  void open_in_memory(const std::string& place);
+  void take_memory();
   void close();
   static void sync_folders(std::span<State* const> files);
   static void commit_together(std::span<State* const> files);
@@ -61,7 +64,26 @@ void OutputFile::State::open_in_place(const std::string& path, const std::string
   }
 }
 
+/// The same file layer, below it a file that has no name: its bytes are those of a file.
+void OutputFile::State::open_in_memory(const std::string& place) {
+  const int fd = ::memfd_create("output", MFD_CLOEXEC);
+  if (fd < 0) {
+    cannot("create", place);
+  }
+  writer = std::make_unique<FileWriter>(fd, true, place);
+}
+
+void OutputFile::State::take_memory() {
+  writer->flush();
+  options.memory->resize(static_cast<std::size_t>(writer->size()));
+  writer->read(0, *options.memory);
+}
+
 void OutputFile::State::open(const std::string& path, const std::string& place) {
+  if (options.memory != nullptr) {
+    open_in_memory(place);
+    return;
+  }
   struct stat status {};
   const bool exists = path != "-" && ::stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
@@ -116,6 +138,9 @@ void OutputFile::State::commit_together(std::span<State* const> files) {
 }
 
 void OutputFile::State::close() {
+  if (options.memory != nullptr) {
+    take_memory();
+  }
   if (options.sync) {
     writer->sync();
   }
@@ -130,14 +155,14 @@ OutputFile::OutputFile(const std::string& path, Options options)
 
 OutputFile::~OutputFile() = default;
 
-bool OutputFile::seekable() const { return state_->partial.has_value(); }
+bool OutputFile::seekable() const { return state_->writer->has_offsets(); }
 
 const std::string& OutputFile::place() const { return state_->writer->place(); }
 
 std::uint64_t OutputFile::size() const { return state_->writer->size(); }
 
 std::string OutputFile::scratch_folder() const {
-  if (seekable()) {
+  if (state_->partial) {
     return folder_of(state_->partial->target());
   }
   const char* tmpdir = std::getenv("TMPDIR");

@@ -24,7 +24,8 @@ class OutputFile {
     bool force = false;  ///< replace an existing file; allow binary on a terminal
     bool sync = false;   ///< commit() waits for the disk
     bool binary = true;
-    Progress* progress = nullptr;  ///< is told of spools in $TMPDIR
+    Progress* progress = nullptr;         ///< is told of spools in $TMPDIR
+    Buffer<std::byte>* memory = nullptr;  ///< no file is made: commit() puts the bytes there
   };
 
   /// Opens the partial file (or the device). "-" is stdout. A symlink is followed: its target is
@@ -81,8 +82,11 @@ class OutputFile {
 
 /// What the caller of a sink asked, for one of its files.
 inline OutputFile::Options output_options(const SinkOptions& options, bool binary) {
-  return {
-      .force = options.force, .sync = options.sync, .binary = binary, .progress = options.progress};
+  return {.force = options.force,
+          .sync = options.sync,
+          .binary = binary,
+          .progress = options.progress,
+          .memory = options.memory};
 }
 
 /// An unlinked temporary file beside an output (or in $TMPDIR when that is a stream).

@@ -64,6 +64,42 @@ std::string glb_of_n_vertices(std::size_t n, const Way& way) {
   return read_all(folder / "a");
 }
 
+TEST(Glb, InMemoryHasTheBytesOfTheFile) {
+  MeshChunk chunk;
+  chunk.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  chunk.indices = {0, 1, 2};
+  for (const bool counted : {false, true}) {
+    MeshObject object;
+    if (counted) object.n_vertices = 3, object.n_triangles = 1;
+    const auto write_to = [&](const std::string& path, const SinkOptions& options) {
+      const auto sink = open_mesh_sink(path, options);
+      sink->begin_object(object);
+      sink->put(chunk);
+      sink->end_object({});
+      sink->finish();
+    };
+    const TemporaryFolder folder;
+    write_to(folder / "a", glb());
+    Buffer<std::byte> memory(99);
+    SinkOptions options = glb();
+    options.memory = &memory;
+    write_to(folder / "none", options);
+    const std::string file = read_all(folder / "a");
+    EXPECT_EQ(folder.n_entries(), 1U);
+    ASSERT_EQ(memory.size(), file.size());
+    EXPECT_EQ(std::memcmp(memory.data(), file.data(), file.size()), 0);
+  }
+}
+
+TEST(Glb, OnlyGoesIntoMemory) {
+  Buffer<std::byte> memory;
+  SinkOptions options;
+  options.to = "ply";
+  options.memory = &memory;
+  EXPECT_EQ(error_text([&] { open_mesh_sink("m.ply", options); }, ErrorKind::usage),
+            "m.ply: ply cannot be written to memory; write glb");
+}
+
 TEST(Glb, IsHeaderJsonBuffer) {
   const std::string bytes = written({.has_normals = true}, glb(), {});
   EXPECT_EQ(bytes.substr(0, 4), "glTF");
