@@ -62,7 +62,8 @@ struct ChunkOptions {
 };
 
 /// The surface in a cube of cells: what remains of the whole volume's without the other cells.
-/// Vertices on a face that two chunks share are in both, bit for bit with their normals.
+/// Vertices on a face that two chunks share are in both, bit for bit with their normals. A chunk
+/// has materials where one of its vertices has another than 0.
 struct SurfaceChunk {
   Index3 id{};     ///< c: the cells that start at samples c n_cells to c n_cells + n_cells - 1
   MeshChunk mesh;  ///< indices count from its own first vertex; empty where no surface is left
@@ -77,8 +78,9 @@ struct ChunkSums {
 };
 
 /// The surface of a volume under edits, in chunks. A chunk that an edit reaches is made again and
-/// handed out; who wants to keep meshes keeps them. A chunk's bytes depend on the samples alone:
-/// they are those that a new mesher makes of the same volume, on any number of threads.
+/// handed out; who wants to keep meshes keeps them. A chunk's bytes depend on the samples
+/// and what is painted on them: they are those that a new mesher makes of the same volume, on any
+/// number of threads.
 /// Border   as the options say, at the border of the volume or region, and nowhere else: cells that
 ///          lead to the constant layer around it belong to the chunks at the border.
 /// Threads  one caller; uses its arena where there are several chunks.
@@ -106,6 +108,8 @@ class ChunkMesher {
   ///          chunks of the size, but where a chunk gets its first surface.
   void update(std::span<const IndexBox> dirty, const Take& take);
 
+  /// Chunks that update() would look at for this box.
+  [[nodiscard]] std::uint64_t n_reached(const IndexBox& samples) const;
   /// Whether a chunk has a surface, as far as it was made.
   [[nodiscard]] bool has_surface(const Index3& id) const;
   [[nodiscard]] const ChunkSums& sums() const;

@@ -8,6 +8,7 @@
 
 #include "edit/box_list.hpp"
 #include "edit/brush_pass.hpp"
+#include "edit/edited_materials.hpp"
 #include "edit/edited_reader.hpp"
 #include "edit/history.hpp"
 #include "mc/edit.hpp"
@@ -69,6 +70,7 @@ struct EditStore::State {
   void run_passes(const Edit& edit, const Stroke& stroke, BrushPass& pass);
 
   edit::World world;
+  edit::EditedMaterials materials{world};
   EditRules rules;
   edit::History history;
   std::vector<IndexBox> dirty;
@@ -190,6 +192,8 @@ std::uint64_t EditStore::hash() const {
   }
   return h;
 }
+
+const MaterialReader* EditStore::materials() const { return state_->materials.port(); }
 
 VolumeReader EditStore::reader() const { return edit::make_reader(state_->world, volume()); }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "mc/pipe.hpp"
 #include "pipe/chunk_grid.hpp"
 #include "pipe/totals_sum.hpp"
+#include "pipe/vertex_materials.hpp"
 
 // A chunk is a part of the volume to the dense engine, whose samples are copied together from
 // wherever the store has them. What is kept from chunk to chunk is scratch, and which chunks have a
@@ -70,6 +72,7 @@ struct ChunkMesher::State {
   void remake(const Take& take);
   void make(const Index3& id, Slot& slot) const;
   void gather(Slot& slot) const;
+  void give_materials(Slot& slot) const;
   void hand_out(const SurfaceChunk& chunk, const Take& take);
 
   const EditStore& store;
@@ -78,7 +81,8 @@ struct ChunkMesher::State {
   bool is_sparse;
   pipe::ChunkGrid grid;
   std::vector<Slot> slots;
-  std::vector<Index3> ids;  ///< to be made
+  std::vector<Index3> ids;                         ///< to be made
+  std::optional<pipe::VertexMaterials> materials;  ///< of the volume as it is, if it has any
   std::unordered_map<Index3, Counts, IdHash> known;
   ChunkSums sums;
 };
@@ -171,6 +175,16 @@ void ChunkMesher::State::gather(Slot& slot) const {
   store.read_box(box, slab.storage);
 }
 
+/// A chunk painted nowhere looks as if nothing were painted anywhere.
+void ChunkMesher::State::give_materials(Slot& slot) const {
+  MeshChunk& mesh = slot.chunk.mesh;
+  mesh.materials.clear();
+  if (!materials) return;
+  slot.chunk.totals.n_materials_held = materials->give(mesh);
+  const auto is_none = [](std::uint16_t material) { return material == 0; };
+  if (std::ranges::all_of(mesh.materials, is_none)) mesh.materials.clear();
+}
+
 void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
   slot.extractor.set_part(grid.part(id));
   gather(slot);
@@ -180,6 +194,7 @@ void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
   sum.add(slot.totals);
   chunk.id = id;
   chunk.totals = sum.totals(options.extract.origin);
+  give_materials(slot);
 }
 
 /// Enters a chunk that was made, and hands it out if it has a surface or had one.
@@ -205,8 +220,12 @@ void ChunkMesher::State::hand_out(const SurfaceChunk& chunk, const Take& take) {
 
 void ChunkMesher::State::remake(const Take& take) {
   const std::size_t n_slots = std::min(base::pipeline_slots(), ids.size());
+  const Affine& to_world = options.to_world ? *options.to_world : volume.lattice.to_world;
+  materials.reset();
+  if (const MaterialReader* reader = store.materials()) {
+    materials.emplace(*reader, to_world, options.extract.origin);
+  }
   while (slots.size() < n_slots) {
-    const Affine& to_world = options.to_world ? *options.to_world : volume.lattice.to_world;
     slots.push_back({{volume, to_world, options.extract, grid.part(ids[0])}, {}, {}, {}});
   }
   struct Run {
@@ -242,6 +261,9 @@ void ChunkMesher::update(std::span<const IndexBox> dirty, const Take& take) {
   state_->remake(take);
 }
 
+std::uint64_t ChunkMesher::n_reached(const IndexBox& samples) const {
+  return pipe::count_of(state_->grid.reached(samples));
+}
 bool ChunkMesher::has_surface(const Index3& id) const { return state_->known.contains(id); }
 const ChunkSums& ChunkMesher::sums() const { return state_->sums; }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -140,6 +143,63 @@ TEST(ChunkMesher, DoesNotFillTheBoxAroundASparseVolume) {
   const IndexBox everything{{-(1 << 29), -(1 << 29), -(1 << 29)}, {1 << 29, 1 << 29, 1 << 29}};
   mesher.update({&everything, 1}, kept.take());
   EXPECT_GT(kept.chunks().size(), n_before);
+}
+
+/// Material by position; 0 where a mesh or chunk has none.
+using Painted = std::map<std::array<float, 3>, std::uint16_t>;
+
+Painted painted(const ChunkCollector::Chunks& chunks) {
+  Painted out;
+  for (const auto& [id, chunk] : chunks) {
+    for (std::size_t v = 0; v < chunk.n_vertices; ++v) {
+      const float* p = &chunk.positions[3 * v];
+      out[{p[0], p[1], p[2]}] = chunk.materials.empty() ? 0 : chunk.materials[v];
+    }
+  }
+  return out;
+}
+
+Painted painted(const Collected& whole) {
+  Painted out;
+  for (std::size_t v = 0; v < whole.mesh.positions.size(); ++v) {
+    out[whole.mesh.positions[v]] = whole.materials.empty() ? 0 : whole.materials[v];
+  }
+  return out;
+}
+
+TEST(ChunkMesher, ChunksHaveTheMaterialsOfTheWholeMesh) {
+  const VolumeReader input = dense(64, 20);
+  EditStore store(input, {});
+  const ChunkOptions options{.extract = {.iso = 0}, .to_world = {}, .n_cells = 16};
+  ChunkMesher mesher(store, options);
+  ChunkCollector kept;
+  mesher.build(kept.take());
+  const ChunkCollector::Chunks bare = kept.chunks();
+  Edit paint = dab(EditOp::paint, {32, 32, 12}, 3);
+  paint.material = 7;
+  store.apply(paint);
+  mesher.update(store.take_dirty(), kept.take());
+  EXPECT_EQ(kept.n_taken(), 4U);
+  EXPECT_EQ(painted(kept.chunks()), painted(collect(store.reader(), options.extract)));
+  EXPECT_FALSE(kept.chunks() == bare);
+  const auto n_painted = std::ranges::count_if(
+      kept.chunks(), [](const auto& chunk) { return !chunk.second.materials.empty(); });
+  EXPECT_EQ(n_painted, 4);
+  store.undo();
+  mesher.update(store.take_dirty(), kept.take());
+  EXPECT_TRUE(kept.chunks() == bare);
+}
+
+TEST(ChunkMesher, CountsTheChunksThatABoxReaches) {
+  const VolumeReader input = dense(64, 20);
+  const EditStore store(input, {});
+  const ChunkMesher mesher(
+      store, {.extract = {.iso = 0, .normals = Normals::none}, .to_world = {}, .n_cells = 16});
+  EXPECT_EQ(mesher.n_reached({{20, 20, 20}, {24, 24, 24}}), 1U);
+  EXPECT_EQ(mesher.n_reached({{16, 20, 20}, {24, 24, 24}}), 2U);
+  EXPECT_EQ(mesher.n_reached({{0, 0, 0}, {63, 63, 63}}), 64U);
+  EXPECT_EQ(mesher.n_reached({{90, 0, 0}, {93, 3, 3}}), 0U);
+  EXPECT_EQ(mesher.n_reached({}), 0U);
 }
 
 TEST(ChunkMesher, AllocatesNothingWhenWarm) {
