@@ -34,8 +34,11 @@ int run_edit(Invocation& invocation, std::vector<std::string> words) {
     status = show(invocation.console, *failure);
     error = fmt::format("{}", fmt::join(failure->lines, "\n"));
   }
-  session.close_report(status, error);
-  return status;
+  // A stdout that took no more takes no last line either: that is told once.
+  const auto last = attempt([&] { session.close_report(status, error); });
+  if (!last) return status;
+  const std::string text = fmt::format("{}", fmt::join(last->lines, "\n"));
+  return text == error ? status : show(invocation.console, *last);
 }
 
 }  // namespace mc::cli

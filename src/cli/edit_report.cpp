@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <utility>
+
 #include "cli/report.hpp"
 #include "cli/surface_choice.hpp"
 
@@ -26,6 +28,31 @@ Json bounds_json(const Bounds& bounds) {
   return bounds.empty() ? Json() : Json::array({bounds.lo, bounds.hi});
 }
 
+void add_chunks(Json& json, const ChunkChanges& changes) {
+  json["removed"] = changes.removed;
+  json["chunks"] = Json::array();
+  for (const ChunkUpdate& chunk : changes.updated) {
+    Json one;
+    one["id"] = chunk.id;
+    if (!chunk.file.empty()) one["file"] = chunk.file;
+    one["bytes"] = chunk.n_bytes;
+    one["vertices"] = chunk.n_vertices;
+    one["triangles"] = chunk.n_triangles;
+    one["bounds"] = bounds_json(chunk.bounds);
+    json["chunks"].push_back(std::move(one));
+  }
+  json["surface"] = {{"chunks", changes.sums.n_chunks},
+                     {"vertices", changes.sums.n_vertices},
+                     {"triangles", changes.sums.n_triangles}};
+}
+
+void add_effect(Json& json, const EditEffect& effect) {
+  json["dabs"] = effect.n_dabs;
+  json["outside"] = effect.n_outside;
+  json["samples"] = effect.n_samples;
+  json["changed"] = effect.n_changed;
+}
+
 }  // namespace
 
 std::string to_json(const RecordReport& report) {
@@ -36,14 +63,15 @@ std::string to_json(const RecordReport& report) {
     json["count"] = *report.count;
   } else if (report.output) {
     json["output"] = *report.output;
-  } else {
-    json["dabs"] = report.effect.n_dabs;
-    json["outside"] = report.effect.n_outside;
-    json["samples"] = report.effect.n_samples;
-    json["changed"] = report.effect.n_changed;
+  } else if (report.number != 0) {
+    add_effect(json, report.effect);
   }
-  json["touched"] = box_json(report.effect.touched);
-  json["bounds"] = bounds_json(report.bounds);
+  if (report.number != 0) {
+    json["touched"] = box_json(report.effect.touched);
+    json["bounds"] = bounds_json(report.bounds);
+  }
+  if (report.n_reached) json["reached_chunks"] = *report.n_reached;
+  if (report.chunks) add_chunks(json, *report.chunks);
   json["seconds"] = report.seconds;
   return one_line(json);
 }

@@ -9,11 +9,27 @@
 #include "mc/edit.hpp"
 #include "mc/extract.hpp"
 #include "mc/mesh.hpp"
+#include "mc/pipe.hpp"
 
 // What `mc edit` says in JSON: a line for each record of the script, one for each output (see
 // report.hpp), and one at the end.
 
 namespace mc::cli {
+
+/// A chunk of the surface that is new or was made again.
+struct ChunkUpdate {
+  Index3 id{};
+  std::string file;  ///< in the folder; empty where it was sent to stdout
+  std::uint64_t n_bytes = 0;
+  std::uint64_t n_vertices = 0, n_triangles = 0;
+  Bounds bounds;  ///< in the GLB's scene
+};
+
+struct ChunkChanges {
+  std::vector<Index3> removed;  ///< chunks whose surface is gone
+  std::vector<ChunkUpdate> updated;
+  ChunkSums sums;  ///< of all chunks there are
+};
 
 /// One record, done.
 struct RecordReport {
@@ -23,7 +39,9 @@ struct RecordReport {
   Bounds bounds{};                      ///< of what was touched, in the script's space
   std::optional<std::size_t> count{};   ///< undo, redo: steps
   std::optional<std::string> output{};  ///< write
-  double seconds = 0;                   ///< from the record's arrival
+  std::optional<ChunkChanges> chunks{};
+  std::optional<std::uint64_t> n_reached{};  ///< dry run: chunks that the box reaches
+  double seconds = 0;  ///< from the record's arrival until its chunks were handed out
 };
 
 struct EditTotals {

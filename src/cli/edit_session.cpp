@@ -38,6 +38,15 @@ void include(EditEffect& sum, const EditEffect& more) {
   sum.n_outside += more.n_outside;
 }
 
+std::string description_of(const RecordReport& report) {
+  const EditEffect& e = report.effect;
+  const std::string what = fmt::format("record {:<4} {:<8} {} dabs, {} samples", report.number,
+                                       report.op, e.n_dabs, e.n_samples);
+  if (is_empty(e.touched)) return what + ", outside the volume\n";
+  return fmt::format("{} in {} chunks, {} to {}\n", what, *report.n_reached,
+                     fmt::join(e.touched.lo, ","), fmt::join(e.touched.hi, ","));
+}
+
 bool steps(source::RecordKind kind) {
   return kind == source::RecordKind::undo || kind == source::RecordKind::redo;
 }
@@ -58,7 +67,8 @@ void EditSession::check_script() {
     may_undo_ = may_undo_ || steps(record.kind);
     if (record.kind == source::RecordKind::write) look_at_write(record);
   });
-  if (plan_.outputs.empty() && writes_.empty() && !plan_.journal && !plan_.dry_run) {
+  if (plan_.outputs.empty() && writes_.empty() && !plan_.emits && !plan_.journal &&
+      !plan_.dry_run) {
     throw Error(ErrorKind::usage, "edit", "no output: expected -o FILE",
                 "or a write record in the script, or --dry-run");
   }
@@ -156,6 +166,16 @@ void EditSession::begin() {
                                          args_.mesh.sync);
     hash_ = store_->hash();
   }
+  if (plan_.emits) begin_to_emit();
+}
+
+void EditSession::begin_to_emit() {
+  const auto began = Clock::now();
+  emitter_ = std::make_unique<ChunkEmitter>(plan_, *source_, *store_);
+  RecordReport report{.number = 0, .op = "open"};
+  report.chunks = emitter_->emit_all();
+  report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  tell(to_json(report));
 }
 
 /// The next good record; bad ones are told of, and end the script unless it is to be kept going.
@@ -207,7 +227,8 @@ void EditSession::do_record(const source::ScriptRecord& record) {
     note_in_journal(record, 1);
   }
   check_hash(record, record.after, "after");
-  static_cast<void>(store_->take_dirty());
+  const std::vector<IndexBox> dirty = store_->take_dirty();
+  if (emitter_) report.chunks = emitter_->emit_changes(dirty, record.number);
   if (!is_heard()) return;
   report.bounds = bounds_of(report.effect.touched);
   report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
@@ -273,7 +294,7 @@ void EditSession::write_output(EditOutput output) {
   if (const ExtractPlan* mesh = mesh_plan(output)) {
     RunReport report;
     run_open_job(*mesh, output.path, edited, invocation_, report);
-    if (plan_.report) tell(to_json(report));
+    if (is_heard()) tell(to_json(report));
     return;
   }
   auto& volume = std::get<SamplePlan>(output.plan);
@@ -282,10 +303,19 @@ void EditSession::write_output(EditOutput output) {
   write_volume(edited.reader, volume, invocation_);
 }
 
-bool EditSession::is_heard() const { return plan_.report.has_value(); }
+bool EditSession::is_heard() const { return plan_.report || plan_.emits; }
 
 void EditSession::tell(const std::string& line) {
   if (plan_.report) report_.add_line(line);
+  if (plan_.lines_on_stdout() && plan_.report != "-") print_out(line + "\n");
+}
+
+void EditSession::note_materials() const {
+  if (!emitter_ || emitter_->n_materials_held() == 0) return;
+  invocation_.console.warn(fmt::format(
+      "{}: {} vertices of chunks have a material that is no number from 0 to 65535: the nearest is "
+      "taken, 0 for NaN",
+      source_->place, emitter_->n_materials_held()));
 }
 
 /// The corners' box in the script's space.
@@ -310,6 +340,7 @@ EditEffect EditSession::measure(const source::ScriptRecord& record) {
 
 /// What each record would touch of the volume as it is.
 void EditSession::describe() {
+  const ChunkMesher chunks(*store_, chunk_options(plan_, *source_));
   while (const auto record = next_record()) {
     ++totals_.n_records;
     if (steps(record->kind) || record->kind == source::RecordKind::write) {
@@ -320,18 +351,10 @@ void EditSession::describe() {
       continue;
     }
     RecordReport report{.number = record->number, .op = record->op, .effect = measure(*record)};
-    const EditEffect& e = report.effect;
-    report.bounds = bounds_of(e.touched);
+    report.n_reached = chunks.n_reached(report.effect.touched);
+    report.bounds = bounds_of(report.effect.touched);
     if (plan_.report) report_.add_line(to_json(report));
-    if (plan_.report == "-") continue;
-    std::string text = fmt::format("record {:<4} {:<8} {} dabs, {} samples", record->number,
-                                   record->op, e.n_dabs, e.n_samples);
-    if (is_empty(e.touched)) {
-      text += ", outside the volume";
-    } else {
-      text += fmt::format(", {} to {}", fmt::join(e.touched.lo, ","), fmt::join(e.touched.hi, ","));
-    }
-    print_out(text + "\n");
+    if (plan_.report != "-") print_out(description_of(report));
   }
 }
 
@@ -346,6 +369,7 @@ int EditSession::run() {
   }
   begin();
   follow_script();
+  note_materials();
   for (EditOutput& output : plan_.outputs) write_output(std::move(output));
   return status_;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/chunk_emitter.hpp"
 #include "cli/edit_report.hpp"
 #include "cli/invocation.hpp"
 #include "cli/journal.hpp"
@@ -43,6 +44,8 @@ class EditSession {
   void probe(const EditOutput& output) const;
   void describe();
   void begin();
+  void begin_to_emit();
+  void note_materials() const;
   void follow_script();
   std::optional<source::ScriptRecord> next_record();
   void do_record(const source::ScriptRecord& record);
@@ -66,6 +69,7 @@ class EditSession {
   std::optional<Source> source_;
   std::optional<EditStore> store_;
   std::unique_ptr<Journal> journal_;
+  std::unique_ptr<ChunkEmitter> emitter_;
   std::vector<EditOutput> writes_;  // those of a script that was looked at beforehand
   std::set<std::string> written_;   // their names
   bool may_undo_ = true;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/chosen_grid.hpp"
+#include "cli/facts.hpp"
 #include "cli/output_probe.hpp"
 #include "cli/placement.hpp"
 #include "cli/region.hpp"
@@ -55,7 +56,6 @@ class Extraction {
 
  private:
   void place_mesh();
-  void refuse_collapse() const;
   void choose_surface();
   void keep_what_is_read_again();
   void describe() const;
@@ -126,7 +126,8 @@ void Extraction::place_mesh() {
   report_.placement = placement_;
   const RoundingLoss loss = rounding_loss(box(), placement_.to_world, Precision::f32);
   needs_ = mesh_needs(plan_.format, plan_.sink, loss.matters);
-  refuse_collapse();
+  check_told_apart(source_->place, box(), placement_.to_world, needs_,
+                   plan_.source.spacing || plan_.source.origin);
   if (!loss.matters || needs_.relative_origin) return;
   if (needs_.precision == Precision::f64) {
     invocation_.console.note(fmt::format(
@@ -137,25 +138,6 @@ void Extraction::place_mesh() {
         "ply or glb keep them in place",
         plan_.format, loss.largest_move));
   }
-}
-
-/// A mesh whose vertices cannot be told apart is no mesh.
-void Extraction::refuse_collapse() const {
-  Affine stored = placement_.to_world;
-  if (needs_.relative_origin) {
-    const Vec3 origin = double_origin(box(), stored);
-    for (std::size_t a = 0; a < 3; ++a) stored.m[4 * a + 3] -= origin[a];
-  }
-  if (!rounding_loss(box(), stored, needs_.precision).collapses) return;
-  const bool asked = plan_.source.spacing || plan_.source.origin;
-  throw Error(asked ? ErrorKind::usage : ErrorKind::limit, source_->place,
-              fmt::format("{} coordinates cannot tell the vertices of this volume apart: its cells "
-                          "are {:.3g} wide, its corner lies at {:.3g}",
-                          needs_.precision == Precision::f32 ? "float" : "double",
-                          placement_.to_world.spacing(0), placement_.to_world.m[3]),
-              needs_.precision == Precision::f32
-                  ? "use ply or obj, or change --spacing and --origin"
-                  : "change --spacing and --origin");
 }
 
 FieldStatistics Extraction::measure(std::span<const double> percentiles) {
@@ -229,24 +211,10 @@ RunOptions Extraction::run_options(const Iso& iso) const {
   return options;
 }
 
-/// Facts for the file: what was chosen, and nothing that differs between two runs of one choice.
 SinkOptions Extraction::sink_options() const {
   SinkOptions options = plan_.sink;
   options.progress = &invocation_.console;
-  auto& facts = options.provenance;
-  facts.emplace_back("generator", "mc " MC_VERSION);
-  if (!volume().name.empty()) facts.emplace_back("grid", volume().name);
-  std::vector<std::string> isos;
-  for (const Iso& iso : isos_) isos.push_back(iso_text(iso.value, volume().type));
-  facts.emplace_back("iso", fmt::format("{}", fmt::join(isos, ",")));
-  facts.emplace_back("inside", name_of(inside_));
-  facts.emplace_back("border", name_of(border_));
-  const bool y_up = plan_.format == "glb" || plan_.format == "gltf";
-  facts.emplace_back("frame", name_of(y_up ? placement_.source_frame : placement_.frame));
-  if (y_up || placement_.source_frame == Frame::none) {
-    facts.emplace_back("up", y_up ? "y" : name_of(placement_.source_up));
-  }
-  facts.emplace_back("units", name_of(placement_.units));
+  options.provenance = facts_of(volume(), isos_, inside_, border_, placement_, plan_.format);
   return options;
 }
 

@@ -38,10 +38,11 @@ constexpr std::array<Page, 7> kPages{{
      "  mc extract *.vdb --out-dir meshes --to ply --report -\n"},
     {"edit", "mc edit INPUT --script EDITS -o OUTPUT...", "brush edits, then mesh or volume",
      "Changes a volume by a script of brush edits (.json of format mc-edits, or JSON Lines; -\n"
-     "is stdin, each line acted on as it comes) and writes meshes and volumes.\n",
+     "is stdin, each line acted on as it comes) and writes meshes and volumes, or the chunks of\n"
+     "the surface that each edit reaches.\n",
      "  mc edit terrain.json --script tunnel.json -o tunnel.glb\n"
      "  mc edit scan.vdb --script edits.jsonl -o scan2.vdb -o scan2.ply\n"
-     "  mc edit world.vdb --script - --journal world.jsonl -o sculpted.vdb < pipe\n"},
+     "  mc edit world.vdb --script - --emit chunks --chunk-dir chunks --journal world.jsonl\n"},
     {"sample", "mc sample INPUT -o VOLUME", "any input to a volume file",
      "Writes the samples of a volume, or of a mc-volume spec, as .vdb, .nrrd, .raw or\n"
      "OpenEXR slices; with --slice one plane of them as a picture.\n",

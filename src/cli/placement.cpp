@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cli/placement.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -116,6 +118,23 @@ Vec3 double_origin(const IndexBox& box, const Affine& to_world) {
   Vec3 middle;
   for (std::size_t a = 0; a < 3; ++a) middle[a] = (double{1} * box.lo[a] + box.hi[a]) / 2;
   return to_world(middle);
+}
+
+void check_told_apart(const std::string& place, const IndexBox& box, const Affine& to_world,
+                      const MeshNeeds& needs, bool asked) {
+  Affine stored = to_world;
+  if (needs.relative_origin) {
+    const Vec3 origin = double_origin(box, stored);
+    for (std::size_t a = 0; a < 3; ++a) stored.m[4 * a + 3] -= origin[a];
+  }
+  if (!rounding_loss(box, stored, needs.precision).collapses) return;
+  throw Error(asked ? ErrorKind::usage : ErrorKind::limit, place,
+              fmt::format("{} coordinates cannot tell the vertices of this volume apart: its cells "
+                          "are {:.3g} wide, its corner lies at {:.3g}",
+                          needs.precision == Precision::f32 ? "float" : "double",
+                          to_world.spacing(0), to_world.m[3]),
+              needs.precision == Precision::f32 ? "use ply or obj, or change --spacing and --origin"
+                                                : "change --spacing and --origin");
 }
 
 const char* name_of(Frame frame) {

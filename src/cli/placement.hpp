@@ -36,6 +36,11 @@ struct RoundingLoss {
 /// Rounding of positions anywhere in `box` under `to_world`.
 RoundingLoss rounding_loss(const IndexBox& box, const Affine& to_world, Precision precision);
 
+/// A mesh whose vertices cannot be told apart is no mesh. Errors   limit; usage, where the map was
+/// `asked` for.
+void check_told_apart(const std::string& place, const IndexBox& box, const Affine& to_world,
+                      const MeshNeeds& needs, bool asked);
+
 /// The middle of the box: positions relative to it are small.
 Vec3 double_origin(const IndexBox& box, const Affine& to_world);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <utility>
 
@@ -66,12 +67,40 @@ void check_input(const EditArgs& args) {
   }
 }
 
+void resolve_emit(const EditArgs& args, EditPlan& plan) {
+  static constexpr std::array<std::pair<std::string_view, bool>, 1> kWhat{{{"chunks", true}}};
+  plan.emits = args.emit && parse_choice("--emit", *args.emit, kWhat);
+  plan.chunk_dir = args.chunk_dir;
+  for (const auto& [option, given] : {std::pair{"--chunk-dir", args.chunk_dir.has_value()},
+                                      {"--chunk-cells", args.chunk_cells.has_value()}}) {
+    if (given && !plan.emits) refuse(option, "is of the chunks that --emit chunks hands out");
+  }
+  if (plan.chunk_dir && plan.chunk_dir->empty())
+    refuse("--chunk-dir", "the folder's name is empty");
+  if (!args.chunk_cells) return;
+  static constexpr std::array<std::pair<std::string_view, std::int32_t>, 6> kCells{
+      {{"8", 8}, {"16", 16}, {"32", 32}, {"64", 64}, {"128", 128}, {"256", 256}}};
+  plan.chunk_cells = parse_choice("--chunk-cells", *args.chunk_cells, kCells);
+}
+
+/// Chunks on stdout may be asked for by `-o -`, which then is no mesh.
+std::vector<std::string> outputs_of(const EditArgs& args, const EditPlan& plan) {
+  std::vector<std::string> outputs = args.outputs;
+  if (!plan.sends_chunks() || std::ranges::count(outputs, "-") != 1) return outputs;
+  if (args.mesh.to.value_or("glb") != "glb") refuse("--to", "chunks on stdout are glb");
+  std::erase(outputs, "-");
+  return outputs;
+}
+
 /// stdout has room for one thing.
 void check_streams(const EditArgs& args, const EditPlan& plan) {
   const auto on_stdout = std::ranges::count(args.outputs, "-");
   if (on_stdout > 1) refuse("--output", "- is given more than once");
-  if (on_stdout != 0 && plan.report == "-") {
-    refuse("--report", "cannot go to stdout with --output -", "give another FILE");
+  if (on_stdout != 0 && plan.lines_on_stdout()) {
+    refuse("--report",
+           plan.report ? "cannot go to stdout with --output -"
+                       : "missing: the lines of --emit cannot go to stdout with --output -",
+           plan.report ? "give another FILE" : "give a FILE");
   }
   for (const auto& [option, path] :
        {std::pair{"--report", plan.report}, {"--journal", plan.journal}}) {
@@ -93,9 +122,12 @@ EditOutput resolve_write(const EditArgs& args, const std::string& path) {
   return resolve_output(args, path, output_format(path, {}));
 }
 
-EditPlan resolve(const EditArgs& args) {
-  check_input(args);
+EditPlan resolve(const EditArgs& typed) {
+  check_input(typed);
   EditPlan plan;
+  resolve_emit(typed, plan);
+  EditArgs args = typed;
+  args.outputs = outputs_of(typed, plan);
   plan.script = *args.script;
   plan.journal = args.journal;
   plan.report = args.mesh.report;
@@ -110,12 +142,15 @@ EditPlan resolve(const EditArgs& args) {
     plan.outputs.push_back(resolve_output(args, path, format_of(args, path)));
   }
   ExtractArgs surface = args.mesh;
-  surface.output = "surface.glb";
+  surface.output = "chunk.glb";
   surface.to = "glb";
   surface.ascii = false;
   surface.precision.reset();
   plan.surface = resolve(surface);
   plan.surface.report = plan.report;
+  if (plan.emits && plan.surface.isos.size() > 1) {
+    refuse("--iso", "chunks are of one surface, but more than one value is given");
+  }
   if (args.undo) {
     plan.undo = static_cast<std::size_t>(
         parse_integer("--undo", *args.undo, 0, std::numeric_limits<std::int32_t>::max()));

@@ -21,14 +21,23 @@ struct EditOutput {
 };
 
 struct EditPlan {
-  ExtractPlan surface;  ///< input, iso, side and border
+  ExtractPlan surface;  ///< input, iso, side and border, and how chunks are meshed
   std::vector<EditOutput> outputs;
-  std::string script;  ///< "-" is stdin
+  std::string script;                    ///< "-" is stdin
+  bool emits = false;                    ///< chunks, after each record those that changed
+  std::optional<std::string> chunk_dir;  ///< where they go; unset: stdout
+  std::int32_t chunk_cells = 32;
   std::optional<std::string> journal;
   std::optional<std::string> report;  ///< "-" is stdout
   std::optional<std::size_t> undo;    ///< steps to keep
   bool keep_going = false;
   bool dry_run = false;
+
+  /// Chunks go to stdout, between the lines that tell of them.
+  [[nodiscard]] bool sends_chunks() const { return emits && !chunk_dir; }
+  [[nodiscard]] bool lines_on_stdout() const {
+    return report == "-" || sends_chunks() || (emits && !report);
+  }
 };
 
 /// Errors   usage.

@@ -9,8 +9,10 @@ import argparse
 import json
 import os
 import pathlib
+import resource
 import select
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -105,6 +107,163 @@ def test_it_can_be_kept_going(mc):
     assert session.ask(ball("subtract", [20, 32, 20], strength=50))["record"] == 2
     status, _, _ = session.end()
     assert status == 2 and pathlib.Path("going.ply").exists()
+
+
+def triangles_of(glb):
+    """Each triangle by its corners' positions and normals, from the least one on."""
+    magic, version, length, json_length = struct.unpack_from("<4sIII", glb)
+    assert magic == b"glTF" and version == 2 and length == len(glb)
+    document = json.loads(glb[20:20 + json_length])
+    data = glb[28 + json_length:]
+    views, accessors = document["bufferViews"], document["accessors"]
+    found = []
+    for mesh in document["meshes"]:
+        primitive = mesh["primitives"][0]
+        indices = accessors[primitive["indices"]]
+        letter = {5123: "H", 5125: "I"}[indices["componentType"]]
+        start = views[indices["bufferView"]].get("byteOffset", 0)
+        ids = struct.unpack_from(f"<{indices['count']}{letter}", data, start)
+        view = views[accessors[primitive["attributes"]["POSITION"]]["bufferView"]]
+        corner = [data[at:at + 24] for at in
+                  range(view.get("byteOffset", 0),
+                        view.get("byteOffset", 0) + view["byteLength"], view["byteStride"])]
+        for n in range(0, len(ids), 3):
+            three = [corner[i] for i in ids[n:n + 3]]
+            first = three.index(min(three))
+            found.append(tuple(three[first:] + three[:first]))
+    return found
+
+
+class Follower:
+    """A viewer: takes the chunks of one record as one state of the surface."""
+
+    def __init__(self, session):
+        self.session, self.chunks = session, {}
+
+    def record(self):
+        coming = {}
+        while "chunk" in (line := self.session.answer()):
+            coming[tuple(line["chunk"])] = self.session.take(line["bytes"])
+        assert {tuple(c["id"]): c["bytes"] for c in line["chunks"]} == {
+            at: len(glb) for at, glb in coming.items()}, line
+        for gone in map(tuple, line["removed"]):
+            del self.chunks[gone]
+        self.chunks.update(coming)
+        assert line["surface"]["chunks"] == len(self.chunks), line
+        return line
+
+    def ask(self, record):
+        self.session.send(record)
+        return self.record()
+
+
+FOLLOWED = [ball("subtract", [20, 20, 29], radius=5, strength=200),
+            ball("add", [12, 12, 12], radius=6, strength=200),
+            {**ball("add", [0, 0, 0]), "path": {"points": [[5, 30, 20], [35, 30, 22]]},
+             "strength": 90},
+            ball("smooth", [20, 20, 27], radius=4),
+            ball("paint", [20, 20, 10], radius=3, material=3), {"op": "undo", "count": 2},
+            {"op": "redo"}, ball("paint", [14, 14, 26], radius=3, material=3),
+            {"op": "fill", "value": 0}, {"op": "undo"}, ball("add", [300, 0, 0])]
+CHUNKS = ["--emit", "chunks", "--chunk-cells", "16"]
+
+
+def chunks_of(mc, volume, *options):
+    """All chunks of a volume, as a fresh run hands them out."""
+    script = json.dumps(HEADER).encode() + b"\n"
+    done = subprocess.run([mc, "edit", volume, "--iso", "100", "--script", "-", *CHUNKS, "-q",
+                           *options], input=script, capture_output=True, check=True)
+    chunks, rest = {}, done.stdout
+    while rest:
+        line, rest = rest.split(b"\n", 1)
+        line = json.loads(line)
+        if "chunk" in line:
+            chunks[tuple(line["chunk"])], rest = rest[:line["bytes"]], rest[line["bytes"]:]
+    return chunks
+
+
+def test_who_follows_has_the_surface(mc):
+    for options in ([], ["--normals", "face", "--border", "closed"]):
+        session = Session(mc, *CHUNKS, "-o", "-", "-o", "end.glb", "-o", "end.nrrd",
+                          "--force", *options)
+        follower = Follower(session)
+        opened = follower.record()
+        assert (opened["record"], opened["op"], opened["removed"]) == (0, "open", []), opened
+        for number, edit in enumerate(FOLLOWED, 1):
+            line = follower.ask(edit)
+            assert line["record"] == number and line["seconds"] > 0, line
+            if edit["op"] == "fill":
+                assert not follower.chunks and line["removed"], line
+            if edit["op"] in ("smooth", "paint"):
+                assert 0 < len(line["chunks"]) < line["surface"]["chunks"], line
+        last_state = follower.chunks
+        status, rest, err = session.end()
+        assert status == 0 and json.loads(rest.splitlines()[-1])["records"] == len(FOLLOWED), err
+        # The same chunks as afresh, but for what the volume's file does not hold: paint.
+        fresh = chunks_of(mc, "end.nrrd", *options)
+        assert set(fresh) == set(last_state) and len(fresh) >= 8, sorted(fresh)
+        painted = [at for at in fresh if fresh[at] != last_state[at]]
+        assert 0 < len(painted) < len(fresh), painted
+        assert all(b"MATERIAL" in last_state[at] for at in painted), painted
+        # All of them are the mesh.
+        parts = sorted(t for glb in last_state.values() for t in triangles_of(glb))
+        assert parts == sorted(triangles_of(pathlib.Path("end.glb").read_bytes()))
+
+
+def test_chunks_are_files(mc):
+    folder = pathlib.Path("chunks")
+    folder.mkdir()
+    (folder / "readme.txt").write_text("stays", encoding="ascii")
+    session = Session(mc, *CHUNKS, "--chunk-dir", "chunks")
+    opened = session.answer()
+
+    def names():
+        return sorted(path.name for path in folder.iterdir() if path.suffix != ".txt")
+    assert names() == sorted(chunk["file"] for chunk in opened["chunks"]) and len(names()) == 8
+    sent = chunks_of(mc, "ball.raw", *RAW[:4])
+    for at, glb in sent.items():
+        assert (folder / "chunk_{}_{}_{}.glb".format(*at)).read_bytes() == glb
+    before = (folder / "chunk_0_0_0.glb").read_bytes()
+    line = session.ask(ball("subtract", [13, 13, 13], radius=2, strength=200))
+    assert [chunk["file"] for chunk in line["chunks"]] == ["chunk_0_0_0.glb"], line
+    after = (folder / "chunk_0_0_0.glb").read_bytes()
+    assert after != before and len(after) == line["chunks"][0]["bytes"]
+    line = session.ask({"op": "fill", "value": 0})
+    assert len(line["removed"]) == 8 and not names(), line
+    session.ask({"op": "undo", "count": 2})
+    assert (folder / "chunk_0_0_0.glb").read_bytes() == before
+    assert session.end()[0] == 0 and len(names()) == 8
+    # Another run must not leave chunks of this one among its own.
+    session = Session(mc, *CHUNKS, "--chunk-dir", "chunks")
+    status, _, err = session.end()
+    assert status == 4 and "chunk_0_0_0.glb: exists" in err and len(names()) == 8, (status, err)
+    session = Session(mc, *CHUNKS, "--chunk-dir", "chunks", "--force", "--region",
+                      "0,0,0:14,39,39")
+    assert session.answer()["surface"]["chunks"] == len(names()) == 4, names()
+    assert session.end()[0] == 0 and (folder / "readme.txt").exists()
+
+
+def test_a_full_disk_leaves_whole_chunks(mc):
+    folder = pathlib.Path("full")
+    folder.mkdir()
+    session = Session(mc, *CHUNKS, "--chunk-dir", "full")
+    session.answer()
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    most = max(map(len, before.values()))
+    resource.prlimit(session.process.pid, resource.RLIMIT_FSIZE, (most // 2, most // 2))
+    session.send(ball("subtract", [20, 20, 29], radius=5, strength=200))
+    status, _, err = session.end()
+    assert status == 4 and "cannot write" in err, (status, err)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_follower_may_leave(mc):
+    session = Session(mc, *CHUNKS)
+    session.answer()
+    session.process.stdout.close()
+    session.send(ball("subtract", [20, 20, 29], radius=5, strength=200))
+    assert session.process.wait(PATIENCE) == -signal.SIGPIPE
+    assert session.process.stderr.read() == b"mc: iso 100\n"
 
 
 EDITS = [ball("subtract", [10 + n % 20, 12 + n % 17, 30 - n % 19], strength=5 + n % 7)

@@ -18,6 +18,16 @@ mc edit $in --script good.jsonl -o m.ply
 mc edit $in --script good.jsonl -o n.xyz
 mc edit $in --script good.jsonl -o n.ply -o n.ply
 mc edit $in --script good.jsonl -o - --to ply --report -
+mc edit $in --script good.jsonl --chunk-dir chunks -o n.ply
+mc edit $in --script good.jsonl --chunk-cells 16 -o n.ply
+mc edit $in --script good.jsonl --emit chunks --chunk-cells 24
+mc edit $in --script good.jsonl --emit everything
+mc edit $in --script good.jsonl --emit chunks -o - --to ply
+mc edit $in --script good.jsonl --emit chunks --chunk-dir .. -o - --to ply
+mc edit $in,50 --script good.jsonl --emit chunks
+mc edit $in --script good.jsonl --emit chunks --chunk-dir missing -q | cut -c1-80
+mc edit $in --script good.jsonl --emit chunks --chunk-dir good.jsonl -q | cut -c1-80
+"$MC" edit $in --script good.jsonl --emit chunks -q > /dev/full || echo "status $?"
 mc edit $in --script good.jsonl -o n.ply --journal good.jsonl
 mc edit - $RAW --script - -o n.ply
 mc edit $in --script good.jsonl -o n.ply -o missing/n.ply

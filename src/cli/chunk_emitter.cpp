@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "cli/chunk_emitter.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "cli/facts.hpp"
+#include "cli/invocation.hpp"
+#include "cli/placement.hpp"
+#include "cli/surface_choice.hpp"
+#include "sink/file_writer.hpp"
+
+// A chunk leaves as soon as it is made, so that no more than one is held; who follows waits for the
+// record's line, which comes last, before taking what came as one state of the surface.
+
+namespace mc::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string name_of_chunk(const Index3& id) {
+  return fmt::format("chunk_{}_{}_{}.glb", id[0], id[1], id[2]);
+}
+
+/// "chunk_0_-1_12.glb".
+bool is_chunk_name(std::string_view name) {
+  constexpr std::string_view kFirst = "chunk", kLast = ".glb";
+  if (!name.starts_with(kFirst) || !name.ends_with(kLast)) return false;
+  name.remove_prefix(kFirst.size());
+  name.remove_suffix(std::min(kLast.size(), name.size()));
+  int n_numbers = 0;
+  while (name.starts_with('_')) {
+    name.remove_prefix(name.starts_with("_-") ? 2 : 1);
+    const std::size_t n_digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    if (n_digits == 0) return false;
+    name.remove_prefix(n_digits);
+    ++n_numbers;
+  }
+  return name.empty() && n_numbers == 3;
+}
+
+SinkOptions glb_options(const EditPlan& plan, const Source& source, Border border) {
+  const Volume& volume = volume_of(source.reader);
+  SinkOptions options;
+  options.to = "glb";
+  options.force = true;  // a chunk replaces the one before it
+  options.sync = plan.surface.sink.sync;
+  options.provenance =
+      facts_of(volume, std::array{Iso{plan.surface.isos.front().value, {}}}, *plan.surface.inside,
+               border, place(volume, plan.surface.place, "glb"), "glb");
+  return options;
+}
+
+}  // namespace
+
+ChunkOptions chunk_options(const EditPlan& plan, const Source& source) {
+  const ExtractPlan& surface = plan.surface;
+  const Volume& volume = volume_of(source.reader);
+  const IndexBox box = surface.extract.region.value_or(volume.lattice.box);
+  const Placement placement = place(volume, surface.place, "glb");
+  ChunkOptions options{.extract = surface.extract, .to_world = placement.to_world};
+  options.n_cells = plan.chunk_cells;
+  options.extract.iso = surface.isos.front().value;
+  options.extract.inside = *surface.inside;
+  options.extract.border = choose_border(surface.border, volume);
+  options.extract.measure = false;
+  const bool moves = rounding_loss(box, placement.to_world, Precision::f32).matters;
+  const MeshNeeds needs = mesh_needs("glb", surface.sink, moves);
+  check_told_apart(source.place, box, placement.to_world, needs,
+                   surface.source.spacing || surface.source.origin);
+  if (needs.relative_origin) options.extract.origin = double_origin(box, placement.to_world);
+  return options;
+}
+
+ChunkEmitter::ChunkEmitter(const EditPlan& plan, const Source& source, const EditStore& store)
+    : plan_(plan),
+      options_(chunk_options(plan, source)),
+      sink_(glb_options(plan, source, options_.extract.border)),
+      mesher_(store, options_) {
+  if (plan.chunk_dir) look_at_folder();
+  if (plan.sends_chunks() && !plan.surface.sink.force && ::isatty(STDOUT_FILENO) == 1) {
+    throw Error(ErrorKind::output, "<stdout>", "is a terminal, and the output is binary",
+                "redirect it, give --chunk-dir DIR, or add --force");
+  }
+}
+
+std::string ChunkEmitter::path_of(const std::string& name) const {
+  return (fs::path(*plan_.chunk_dir) / name).string();
+}
+
+void ChunkEmitter::look_at_folder() {
+  const std::string& folder = *plan_.chunk_dir;
+  std::error_code fault;
+  for (fs::directory_iterator at(folder, fault), end; !fault && at != end; at.increment(fault)) {
+    const std::string name = at->path().filename().string();
+    if (is_chunk_name(name)) found_.insert(name);
+  }
+  if (fault) {
+    throw Error(ErrorKind::output, folder, "cannot read the folder: " + fault.message(),
+                fault == std::errc::no_such_file_or_directory ? "create it first" : "");
+  }
+  if (!found_.empty() && !plan_.surface.sink.force) {
+    throw Error(ErrorKind::output, path_of(*found_.begin()), "exists",
+                "name an empty folder, or add --force to replace its chunks");
+  }
+}
+
+void ChunkEmitter::put(const SurfaceChunk& chunk, const std::string& path,
+                       const SinkOptions& to) const {
+  MeshObject object;
+  object.name = fmt::format("chunk {} {} {}", chunk.id[0], chunk.id[1], chunk.id[2]);
+  object.iso = options_.extract.iso;
+  object.has_normals = options_.extract.normals != Normals::none;
+  object.has_materials = !chunk.mesh.materials.empty();
+  object.origin = options_.extract.origin;
+  object.n_vertices = chunk.mesh.n_vertices();
+  object.n_triangles = chunk.mesh.n_triangles();
+  const std::unique_ptr<MeshSink> sink = open_mesh_sink(path, to);
+  sink->begin_object(object);
+  sink->put(chunk.mesh);
+  sink->end_object(chunk.totals);
+  sink->finish();
+}
+
+/// How many bytes it has.
+std::uint64_t ChunkEmitter::write_file(const SurfaceChunk& chunk, const std::string& name) {
+  const std::string path = path_of(name);
+  put(chunk, path, sink_);
+  found_.erase(name);
+  return fs::file_size(path);
+}
+
+std::uint64_t ChunkEmitter::send(const SurfaceChunk& chunk, std::uint64_t record) {
+  SinkOptions to = sink_;
+  to.memory = &glb_;
+  put(chunk, "<stdout>", to);
+  const Index3& id = chunk.id;
+  print_out(fmt::format("{{\"record\":{},\"chunk\":[{},{},{}],\"bytes\":{}}}\n", record, id[0],
+                        id[1], id[2], glb_.size()));
+  print_out({reinterpret_cast<const char*>(glb_.data()), glb_.size()});
+  return glb_.size();
+}
+
+void ChunkEmitter::remove(const std::string& name) const {
+  const std::string path = path_of(name);
+  if (::unlink(path.c_str()) != 0 && errno != ENOENT) sink::cannot("remove", path);
+}
+
+void ChunkEmitter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkChanges& changes) {
+  const std::string name = plan_.chunk_dir ? name_of_chunk(chunk.id) : "";
+  if (chunk.mesh.n_triangles() == 0) {
+    changes.removed.push_back(chunk.id);
+    if (plan_.chunk_dir) remove(name);
+    return;
+  }
+  n_materials_held_ += chunk.totals.n_materials_held;
+  const std::uint64_t n_bytes = plan_.chunk_dir ? write_file(chunk, name) : send(chunk, record);
+  changes.updated.push_back({chunk.id, name, n_bytes, chunk.mesh.n_vertices(),
+                             chunk.mesh.n_triangles(), chunk.totals.bounds});
+}
+
+ChunkChanges ChunkEmitter::emit_all() {
+  ChunkChanges changes;
+  mesher_.build([&](const SurfaceChunk& chunk) { take(chunk, 0, changes); });
+  for (const std::string& name : std::exchange(found_, {})) remove(name);
+  changes.sums = mesher_.sums();
+  return changes;
+}
+
+ChunkChanges ChunkEmitter::emit_changes(std::span<const IndexBox> dirty, std::uint64_t record) {
+  ChunkChanges changes;
+  mesher_.update(dirty, [&](const SurfaceChunk& chunk) { take(chunk, record, changes); });
+  changes.sums = mesher_.sums();
+  return changes;
+}
+
+}  // namespace mc::cli
