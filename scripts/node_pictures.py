@@ -177,22 +177,30 @@ def draw(mc, name, style, field):
     (ROOT / "data" / "pictures" / "nodes" / f"{name}.png").write_bytes(png(pixels))
 
 
-def page():
-    lines = [
-        "# The nodes of mc-volume", "",
-        "Written by `scripts/node_pictures.py`, which drew the pictures from what `mc sample` wrote.",
-        "mc-volume(5) has the formulas. Each picture is the square from -2 to 2, x to the right, y up (for",
-        "z itself, z). Warm is solid, lines are 1/4 apart; grey runs from the least value to the largest. The",
-        "graph of a function of x is shown as the area under it.", "",
-    ]
-    for section, nodes in SECTIONS.items():
+def write_page(path, head, pictures, sections, text_of):
+    """A table of pictures for each section, each with its name and text_of(name, what it shows)."""
+    lines = [*head, ""]
+    for section, shown in sections.items():
         lines += [f"## {section}", "", "| | |", "|---|---|"]
-        for name, (style, field) in nodes.items():
-            text = json.dumps(field)
-            of = "the area under " if style == "graph" else ""
-            lines.append(f"| ![](pictures/nodes/{name}.png) | **{name}** {of}`{text}` |")
+        for name, what in shown.items():
+            lines.append(f"| ![](pictures/{pictures}/{name}.png) | **{name}** {text_of(name, what)} |")
         lines.append("")
-    (ROOT / "data" / "nodes.md").write_text("\n".join(lines[:-1]) + "\n")
+    path.write_text("\n".join(lines[:-1]) + "\n")
+
+
+def text_of_node(_, what):
+    style, field = what
+    of = "the area under " if style == "graph" else ""
+    return f"{of}`{json.dumps(field)}`"
+
+
+HEAD = [
+    "# The nodes of mc-volume", "",
+    "Written by `scripts/node_pictures.py`, which drew the pictures from what `mc sample` wrote.",
+    "mc-volume(5) has the formulas. Each picture is the square from -2 to 2, x to the right, y up (for",
+    "z itself, z). Warm is solid, lines are 1/4 apart; grey runs from the least value to the largest. The",
+    "graph of a function of x is shown as the area under it.",
+]
 
 
 def main():
@@ -201,7 +209,7 @@ def main():
         for name, (style, field) in nodes.items():
             if not wanted or name in wanted:
                 draw(mc, name, style, field)
-    page()
+    write_page(ROOT / "data" / "nodes.md", HEAD, "nodes", SECTIONS, text_of_node)
 
 
 if __name__ == "__main__":

@@ -34,6 +34,8 @@ CORPUS_BEYOND = {
     "expands.jsonl", "odd-clamp.jsonl", "good-torn-journal.jsonl", "deep-arrays.jsonl",
 }
 
+WITHOUT_A_BRUSH = {"group", "undo", "redo", "write"}  # so that they cannot be drawn
+
 
 def parsed(text):
     """The values of a text, a line each where it is JSON Lines; None where it is no strict JSON."""
@@ -87,6 +89,21 @@ def fault_list():
     return [(head + record + "]}", fault) for record, fault in pairs]
 
 
+def faults_of_pictures(names, schema):
+    """Names without a picture, and edits of the page that are none."""
+    page = (ROOT / "data" / "edits.md").read_text()
+    for name in sorted(names):
+        picture = ROOT / "data" / "pictures" / "edits" / f"{name}.png"
+        if f"pictures/edits/{name}.png" not in page or not picture.is_file():
+            yield f"{name}: has no picture: see scripts/edit_pictures.py"
+    edits = [text for text in re.findall(r"`(.*?)`", page) if text.startswith("{")]
+    for text in edits:
+        if not schema.record.is_valid(json.loads(text)):
+            yield f"edits.md: {text}: the schema refuses it"
+    if len(edits) < len(names):
+        yield "edits.md: its edits were not found"
+
+
 def source(name):
     return (ROOT / "src/source/script" / name).read_text()
 
@@ -132,6 +149,8 @@ def main():
         for name in sorted(known):
             if not re.search(rf"^\*\*.*\b{name}\*\*|^\*\*{name}\*\*", page, re.MULTILINE):
                 faults.append(f"{name}: has no entry in mc-edits(5)")
+    falloffs = {*schema.definitions["falloff"]["else"]["enum"], "curve"}
+    faults += faults_of_pictures((ops | shapes | falloffs) - WITHOUT_A_BRUSH, schema)
     if len(ops) < 15 or len(shapes) < 8 or len(listed) < 60 or not examples:
         faults.append("the reader's names, the page's examples or the list of faults were not found")
     print("\n".join(faults) or f"{len(ops)} ops, {len(shapes)} shapes, {len(listed)} faults")
