@@ -200,6 +200,12 @@ class SideMap {
 /// into `storage`, which a reused Slab keeps from read to read. Samples that `sides` leaves out are
 /// not there: their memory holds anything.
 struct Slab {
+  /// Makes `storage` so large. Nothing of it is kept: memory that moves would be there twice.
+  void make_room(std::size_t n_bytes) {
+    if (storage.capacity() < n_bytes) storage = Buffer<std::byte>();
+    storage.resize(n_bytes);
+  }
+
   std::int32_t i0 = 0, j0 = 0, k0 = 0;
   std::vector<const std::byte*> planes;
   std::size_t row_stride_bytes = 0;

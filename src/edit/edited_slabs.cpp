@@ -202,7 +202,7 @@ void EditedSlabs::read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const {
   out.i0 = out.j0 = 0;
   out.k0 = k0;
   out.row_stride_bytes = static_cast<std::size_t>(dims[0]) * size_;
-  out.storage.resize(n * size_ * (1 + patched.size()));
+  out.make_room(n * size_ * (1 + patched.size()));
   fill_samples(out.storage.data(), n * (1 + patched.size()), value, size_);
   out.planes.assign(static_cast<std::size_t>(k1 - k0), out.storage.data());
   for (std::size_t p = 0; p < patched.size(); ++p) {

@@ -113,7 +113,7 @@ void make_room(const Volume& volume, std::int32_t k0, std::int32_t k1, Slab& out
   }
   out.k0 = k0;
   out.row_stride_bytes = nx * size;
-  out.storage.resize(*bytes);
+  out.make_room(*bytes);
   out.planes.clear();
   for (std::size_t n = 0; n < n_planes; ++n) {
     out.planes.push_back(out.storage.data() + n * ny * out.row_stride_bytes);

@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "every binary format h
 /// Makes room for so many bytes, of which none are kept: memory that moves would be there twice.
 inline void make_room(Buffer<std::byte>& to, std::size_t n_bytes) {
   if (to.capacity() < n_bytes) {
-    to = {};
+    to = Buffer<std::byte>();
     to.reserve(n_bytes);
   }
 }

@@ -57,7 +57,7 @@ class SliceReader final : public SlabReader {
       throw Error(ErrorKind::limit, planes_.front().place(),
                   "planes of this size do not fit into memory");
     }
-    out.storage.resize(*bytes);
+    out.make_room(*bytes);
     out.k0 = k0;
     out.row_stride_bytes = size(dims[0]) * sample_size(volume_.type);
     out.planes.clear();

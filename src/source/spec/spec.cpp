@@ -90,7 +90,7 @@ class SpecReader final : public SlabReader, public field::BoxReader, private Mat
       throw Error(ErrorKind::limit, "", "the planes of this volume do not fit in memory",
                   "make the grid smaller");
     }
-    out.storage.resize(*bytes);
+    out.make_room(*bytes);
     out.k0 = k0;
     out.row_stride_bytes = size(dims[0]) * sizeof(float);
     const std::uint64_t plane_bytes = out.row_stride_bytes * size(dims[1]);
