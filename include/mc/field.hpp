@@ -335,9 +335,11 @@ std::unique_ptr<SlabReader> crop_view(const SlabReader& whole, const IndexBox& b
 /// the value
 ///          is the upper edge of the winning bin.
 /// Threads  uses the caller's arena; the result does not depend on the thread count.
+/// Memory   at most `memory_bytes` where one thread's counters and planes fit: else those.
 /// Cost     one pass; plus for percentiles of 32- and 64-bit types one pass for each 16 bits.
 /// Source   Otsu, "A threshold selection method from gray-level histograms", IEEE SMC 1979.
 FieldStatistics measure_field(const VolumeReader& reader, std::span<const double> percentiles,
-                              Progress& progress, const std::stop_token& stop);
+                              Progress& progress, const std::stop_token& stop,
+                              std::uint64_t memory_bytes = 1ULL << 30);
 
 }  // namespace mc

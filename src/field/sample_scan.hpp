@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <stop_token>
 #include <utility>
 #include <variant>
@@ -27,10 +27,11 @@
 
 namespace mc::field {
 
-/// Progress and cancellation of a scan.
+/// Progress, cancellation and memory of a scan.
 struct Watch {
   Progress& progress;
   const std::stop_token& stop;
+  std::uint64_t memory_bytes;
 
   void step(std::uint64_t n_samples) const {
     if (stop.stop_requested()) throw Cancelled();
@@ -56,51 +57,30 @@ inline std::uint64_t scan_length(const LeafReader& sparse) {
   return sparse.leaves().size() * LeafReader::kLeafSamples;
 }
 
-/// Accumulators that threads take and give back, so that there are no more than threads.
-template <class Acc>
-class AccumulatorPool {
- public:
-  template <class Make>
-  std::unique_ptr<Acc> take(const Make& make) {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return std::make_unique<Acc>(make());
-    std::unique_ptr<Acc> out = std::move(free_.back());
-    free_.pop_back();
-    return out;
-  }
-  void give(std::unique_ptr<Acc> acc) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(acc));
-  }
-  std::vector<std::unique_ptr<Acc>> release() { return std::move(free_); }
+/// Planes of one read: sources that decode do so by runs of planes.
+inline std::size_t planes_at_once(const Volume& volume) {
+  constexpr std::uint64_t kReadBytes = std::uint64_t{1} << 24U;
+  const Index3 dims = volume.lattice.dims();
+  const std::uint64_t plane_bytes = static_cast<std::uint64_t>(dims[0]) *
+                                    static_cast<std::uint64_t>(dims[1]) * sample_size(volume.type);
+  return std::clamp<std::uint64_t>(kReadBytes / std::max<std::uint64_t>(1, plane_bytes), 1, 8);
+}
 
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Acc>> free_;
-};
-
-/// Planes [begin, end), a few at a time: sources that decode do so by runs of planes.
+/// Planes [begin, end), into a slab that is used again.
 template <class T, bool Swap, class Acc>
-void scan_planes(const SlabReader& dense, std::size_t begin, std::size_t end, Acc& acc,
+void scan_planes(const SlabReader& dense, std::size_t begin, std::size_t end, Slab& slab, Acc& acc,
                  const Watch& watch) {
-  constexpr std::size_t kReadBytes = std::size_t{1} << 24U;
   const Index3 dims = dense.volume().lattice.dims();
   const auto n_row = static_cast<std::size_t>(dims[0]);
   const std::size_t plane_samples = n_row * static_cast<std::size_t>(dims[1]);
-  const std::size_t run = std::clamp<std::size_t>(
-      kReadBytes / std::max<std::size_t>(1, plane_samples * sizeof(T)), 1, 8);
-  Slab slab;
-  for (std::size_t k = begin; k < end; k += run) {
-    const std::size_t last = std::min(end, k + run);
-    dense.read(static_cast<std::int32_t>(k), static_cast<std::int32_t>(last), slab);
-    for (std::size_t n = k; n < last; ++n) {
-      const std::byte* row = slab.planes[n - k];
-      for (std::int32_t j = 0; j < dims[1]; ++j, row += slab.row_stride_bytes) {
-        acc.template row<Swap>(row, n_row);
-      }
-      acc.end_part(n);
-      watch.step(plane_samples);
+  dense.read(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end), slab);
+  for (std::size_t n = begin; n < end; ++n) {
+    const std::byte* row = slab.planes[n - begin];
+    for (std::int32_t j = 0; j < dims[1]; ++j, row += slab.row_stride_bytes) {
+      acc.template row<Swap>(row, n_row);
     }
+    acc.end_part(n);
+    watch.step(plane_samples);
   }
 }
 
@@ -137,31 +117,63 @@ void scan_blocks(const LeafReader& sparse, std::size_t begin, std::size_t end, A
   }
 }
 
-/// Runs accumulators, each made by `make`, over the whole volume and returns those that saw some.
+/// What one thread of a scan holds.
+template <class Acc>
+struct Scanner {
+  std::optional<Acc> acc;  ///< once it has seen a part
+  Slab slab;
+};
+
+/// As many scanners as there are threads, or fewer where their memory would be more than half of
+/// what the scan may take.
+inline std::size_t scanners_within(std::uint64_t memory_bytes, std::uint64_t bytes_each) {
+  const auto n_threads = static_cast<std::uint64_t>(base::thread_count());
+  return std::clamp<std::uint64_t>(memory_bytes / 2 / std::max<std::uint64_t>(1, bytes_each), 1,
+                                   n_threads);
+}
+
+/// Runs accumulators, each made by `make` and of `acc_bytes`, over the whole volume and returns
+/// those that saw some.
 template <class T, class Make>
-auto scan(const VolumeReader& reader, const Watch& watch, const Make& make) {
+auto scan(const VolumeReader& reader, const Watch& watch, std::uint64_t acc_bytes,
+          const Make& make) {
   using Acc = decltype(make());
-  AccumulatorPool<Acc> pool;
-  const auto in_parallel = [&](std::size_t n_parts, std::size_t grain, const auto& body) {
-    base::for_ranges(n_parts, grain, [&](std::size_t begin, std::size_t end) {
-      std::unique_ptr<Acc> acc = pool.take(make);
-      body(begin, end, *acc);
-      pool.give(std::move(acc));
-    });
+  std::vector<Scanner<Acc>> scanners;
+  const auto in_parallel = [&](std::size_t n_parts, std::size_t grain, std::uint64_t bytes_each,
+                               const auto& body) {
+    scanners.resize(scanners_within(watch.memory_bytes, bytes_each));
+    const std::array<base::Step, 1> steps{{{false, [&](std::size_t run, std::size_t slot) {
+                                              Scanner<Acc>& scanner = scanners[slot];
+                                              if (!scanner.acc) scanner.acc.emplace(make());
+                                              body(run * grain,
+                                                   std::min(n_parts, (run + 1) * grain), scanner);
+                                            }}}};
+    base::pipeline((n_parts + grain - 1) / grain, scanners.size(), steps);
   };
   if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
-    const bool swap = (*dense)->volume().endian != std::endian::native;
-    in_parallel(part_count(**dense), 8, [&](std::size_t begin, std::size_t end, Acc& acc) {
-      swap ? scan_planes<T, true>(**dense, begin, end, acc, watch)
-           : scan_planes<T, false>(**dense, begin, end, acc, watch);
-    });
+    const Volume& volume = (*dense)->volume();
+    const bool swap = volume.endian != std::endian::native;
+    const std::size_t run = planes_at_once(volume);
+    const std::uint64_t slab_bytes =
+        (*dense)->rereads_cheaply() ? 0
+                                    : run * scan_length(**dense) / part_count(**dense) * sizeof(T);
+    in_parallel(part_count(**dense), run, acc_bytes + slab_bytes,
+                [&](std::size_t begin, std::size_t end, Scanner<Acc>& s) {
+                  swap ? scan_planes<T, true>(**dense, begin, end, s.slab, *s.acc, watch)
+                       : scan_planes<T, false>(**dense, begin, end, s.slab, *s.acc, watch);
+                });
   } else {
     const LeafReader& sparse = *std::get<std::unique_ptr<LeafReader>>(reader);
-    in_parallel(part_count(sparse), 64, [&](std::size_t begin, std::size_t end, Acc& acc) {
-      scan_blocks<T>(sparse, begin, end, acc, watch);
-    });
+    in_parallel(part_count(sparse), 64, acc_bytes,
+                [&](std::size_t begin, std::size_t end, Scanner<Acc>& s) {
+                  scan_blocks<T>(sparse, begin, end, *s.acc, watch);
+                });
   }
-  return pool.release();
+  std::vector<Acc> out;
+  for (Scanner<Acc>& scanner : scanners) {
+    if (scanner.acc) out.push_back(std::move(*scanner.acc));
+  }
+  return out;
 }
 
 }  // namespace mc::field

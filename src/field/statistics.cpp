@@ -54,6 +54,7 @@ class ValueCounts {
  public:
   static constexpr std::size_t kKeys = std::size_t{1} << (8 * sizeof(T));
   static constexpr std::size_t kLanes = sizeof(T) == 1 ? 4 : 2;
+  static constexpr std::uint64_t kBytes = kLanes * kKeys * sizeof(std::uint64_t);
 
   template <bool Swap>
   void row(const std::byte* at, std::size_t n) {
@@ -130,8 +131,9 @@ template <class T>
 FieldStatistics measure_counted(const VolumeReader& reader, std::span<const double> percentiles,
                                 const Watch& watch) {
   std::vector<std::uint64_t> counts(ValueCounts<T>::kKeys);
-  for (const auto& acc : field::scan<T>(reader, watch, [] { return ValueCounts<T>(); })) {
-    acc->add_to(counts);
+  for (const auto& acc :
+       field::scan<T>(reader, watch, ValueCounts<T>::kBytes, [] { return ValueCounts<T>(); })) {
+    acc.add_to(counts);
   }
   return from_counts<T>(counts, percentiles);
 }
@@ -254,8 +256,9 @@ double binned_otsu(const VolumeReader& reader, double low, double high, const Wa
   if (!(low < high)) return low;  // one value; or none, and then both are NaN
   const Binning binning(low, high);
   std::array<std::uint64_t, kBins> counts{};
-  for (const auto& acc : field::scan<T>(reader, watch, [&] { return BinCounts<T>(binning); })) {
-    acc->add_to(counts);
+  for (const auto& acc :
+       field::scan<T>(reader, watch, sizeof(BinCounts<T>), [&] { return BinCounts<T>(binning); })) {
+    acc.add_to(counts);
   }
   std::vector<field::HistogramBar> bars;
   for (std::size_t n = 0; n < kBins; ++n) bars.push_back({static_cast<double>(n), counts[n]});
@@ -316,7 +319,8 @@ void find_digit(const VolumeReader& reader, unsigned shift, std::span<Target> ta
   prefixes.erase(std::unique(prefixes.begin(), prefixes.end()), prefixes.end());
   std::vector<std::uint64_t> counts(prefixes.size() * kDigits);
   const auto make = [&] { return DigitCounts<T>(prefixes, shift); };
-  for (const auto& acc : field::scan<T>(reader, watch, make)) acc->add_to(counts);
+  for (const auto& acc : field::scan<T>(reader, watch, counts.size() * sizeof(counts[0]), make))
+    acc.add_to(counts);
   for (Target& target : targets) {
     const auto at = std::lower_bound(prefixes.begin(), prefixes.end(), target.prefix);
     const std::size_t first = static_cast<std::size_t>(at - prefixes.begin()) * kDigits;
@@ -358,13 +362,14 @@ FieldStatistics measure_wide(const VolumeReader& reader, std::span<const double>
   FieldStatistics out;
   std::uint64_t n_finite = 0;
   out.min = out.max = out.mean = kNone;
-  for (const auto& acc : field::scan<T>(reader, watch, [&] { return Range<T>(sums); })) {
-    out.n_samples += acc->n_samples;
-    out.n_nan += acc->n_nan();
-    n_finite += acc->n_finite();
-    if (acc->n_finite() == 0) continue;
-    out.min = std::fmin(out.min, value_of(acc->low()));  // fmin and fmax prefer a number to NaN
-    out.max = std::fmax(out.max, value_of(acc->high()));
+  for (const auto& acc :
+       field::scan<T>(reader, watch, sizeof(Range<T>), [&] { return Range<T>(sums); })) {
+    out.n_samples += acc.n_samples;
+    out.n_nan += acc.n_nan();
+    n_finite += acc.n_finite();
+    if (acc.n_finite() == 0) continue;
+    out.min = std::fmin(out.min, value_of(acc.low()));  // fmin and fmax prefer a number to NaN
+    out.max = std::fmax(out.max, value_of(acc.high()));
   }
   out.min += 0.0;  // turns -0 into 0: which of them came first depends on the threads
   out.max += 0.0;
@@ -387,13 +392,14 @@ std::uint64_t n_passes(std::size_t sample_bytes, std::size_t n_percentiles) {
 }  // namespace
 
 FieldStatistics measure_field(const VolumeReader& reader, std::span<const double> percentiles,
-                              Progress& progress, const std::stop_token& stop) {
+                              Progress& progress, const std::stop_token& stop,
+                              std::uint64_t memory_bytes) {
   const SampleType type = volume_of(reader).type;
   const std::uint64_t n_samples =
       std::visit([](const auto& port) { return field::scan_length(*port); }, reader);
   progress.begin("statistics", n_samples * n_passes(sample_size(type), percentiles.size()),
                  "samples");
-  const Watch watch{progress, stop};
+  const Watch watch{progress, stop, memory_bytes};
   return field::visit_type(type, [&]<class T>(field::TypeTag<T>) {
     if constexpr (sizeof(T) <= 2) {
       return measure_counted<T>(reader, percentiles, watch);
