@@ -299,6 +299,8 @@ class LeafReader {
   [[nodiscard]] virtual std::span<const Tile> tiles() const = 0;
   /// The volume's materials; null where it has none.
   [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
+  /// Memory that it holds, pages of mapped files aside.
+  [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
 };
 
 /// A volume of either kind.

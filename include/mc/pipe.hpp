@@ -25,22 +25,38 @@ enum class CountFirst : std::uint8_t {
   if_large,  ///< where a sixteenth of the slabs says that a sink would rather not spool the faces
 };
 
+/// What a run will hold, in bytes, the program itself included and pages of mapped files aside.
+struct MemoryNeed {
+  std::uint64_t budget = 0;    ///< RunOptions::memory_bytes
+  std::uint64_t least = 0;     ///< the smallest budget that works
+  std::uint64_t expected = 0;  ///< at most, for the surface that is there, or a smooth one
+  std::uint64_t most = 0;      ///< at most, whatever the samples are
+};
+
 struct RunOptions {
   ExtractOptions extract;
   std::optional<Affine> to_world;  ///< instead of the volume's own
   MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
-  std::uint64_t memory_bytes = 1ULL << 30;  ///< the run's own buffers stay within it
+  /// The process stays within it, pages of mapped files aside, and what the tree of a sparse volume
+  /// is more than half of it.
+  std::uint64_t memory_bytes = 1ULL << 30;
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
   CountFirst count_first = CountFirst::no;  ///< no, where the reader reads once
   const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
+  std::function<void(const MemoryNeed&)> tell_need;  ///< called before the work; or empty
 };
 
-/// What a run of these options over this volume will hold at most, in bytes, without mapped input.
-/// Sparse: the index and the layers' classification. Chunks are estimated, white noise aside.
-std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options);
+/// What a run needs; of a dense volume the surface is taken to be smooth, as large as one across
+/// it. Errors   limit: options.memory_bytes are less than the least.
+MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options);
+
+/// The same of the surface that is there, which a pass over all samples counts.
+/// Errors   as above; those of the reader. Precondition: it does not read once.
+MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
+                          const std::stop_token& stop);
 
 /// Refuses, before anything is read, a dense run that cannot keep its budget. What a sparse run
 /// needs shows when it is planned, in run(). Errors   limit.

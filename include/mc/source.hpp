@@ -36,6 +36,9 @@ struct SourceOptions {
   /// The folder that files must lie in which the input's own text names: pictures and volumes of
   /// documents, data files of NRRD headers. Empty: anywhere.
   std::string root{};
+  /// What the run may hold. Values of a VDB that are more than half of it stay in their file, and
+  /// are unpacked where they are looked at.
+  std::uint64_t memory_bytes = std::uint64_t{1} << 30U;
 };
 
 struct Source {

@@ -46,11 +46,15 @@ std::vector<Option> talk_options(CommonArgs& a) {
   };
 }
 
+Option memory_option(Text& memory) {
+  return {"--memory", "SIZE", "most memory to take (default: 1GiB, or a quarter of the machine's)",
+          false, &memory};
+}
+
 std::vector<Option> run_options(CommonArgs& a, Text& memory) {
   return {
       {"--threads", "N", "threads to use (default: all cores)", false, &a.threads},
-      {"--memory", "SIZE", "budget of the run's buffers, such as 512MiB (default: 1GiB)", false,
-       &memory},
+      memory_option(memory),
       {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr", false,
        &a.progress, kProgress},
   };
@@ -188,11 +192,11 @@ std::vector<Option> options_of(SampleArgs& a) {
 }
 
 std::vector<Option> options_of(InfoArgs& a) {
-  std::vector<Option> all{{"--json", "", "one JSON object a line for each input", true, &a.json}};
+  std::vector<Option> all{{"--json", "", "one JSON object a line for each input", true, &a.json},
+                          {"--memory-estimate", "", "say also what memory a mesh of it takes", true,
+                           &a.memory_estimate}};
   append(all, source_options(a.source));
-  append(all, {{"--threads", "N", "threads to use (default: all cores)", false, &a.common.threads},
-               {"--progress", "WHEN", "auto (default), always, never, or json lines on stderr",
-                false, &a.common.progress, kProgress}});
+  append(all, run_options(a.common, a.memory));
   append(all, talk_options(a.common));
   return all;
 }

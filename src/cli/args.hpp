@@ -62,7 +62,8 @@ struct SampleArgs {
 struct InfoArgs {
   SourceArgs source;
   CommonArgs common;
-  bool json = false;
+  Text memory;
+  bool json = false, memory_estimate = false;
 };
 
 struct CheckArgs {

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "cli/extract_job.hpp"
+#include "cli/peak_memory.hpp"
+#include "cli/values.hpp"
 
 // Starting and joining threads costs more than a small file does: such files take turns on the
 // threads, and only runs of larger ones are spread over all threads.
@@ -62,7 +65,9 @@ bool is_small(const Job& job) {
 class Batch {
  public:
   Batch(const ExtractPlan& plan, Invocation& invocation, ReportFile& file)
-      : plan_(plan), invocation_(invocation), file_(file) {}
+      : plan_(plan), invocation_(invocation), file_(file) {
+    if (plan.report || plan.common.verbose) peak_.emplace();
+  }
 
   void run() {
     const std::span<const Job> jobs(plan_.jobs);
@@ -78,6 +83,9 @@ class Batch {
         run_alone(rest.front());
         ++first;
       }
+    }
+    if (peak_) {
+      invocation_.console.detail(fmt::format("memory: {} at its peak", size_text(peak_->bytes())));
     }
   }
   [[nodiscard]] int status() const { return status_; }
@@ -124,7 +132,7 @@ class Batch {
   }
 
   /// A job for which its share of the memory was too little has all of it now.
-  void tell(const Job& job, const Outcome& outcome) {
+  void tell(const Job& job, Outcome& outcome) {
     if (outcome.report.status == static_cast<int>(ErrorKind::limit)) {
       run_alone(job);
     } else {
@@ -134,7 +142,8 @@ class Batch {
     invocation_.console.advance(1);
   }
 
-  void add(const RunReport& report) {
+  void add(RunReport& report) {
+    if (peak_) report.peak_bytes = peak_->bytes();
     file_.add_line(to_json(report));
     if (status_ == 0) status_ = report.status;
   }
@@ -142,6 +151,7 @@ class Batch {
   const ExtractPlan& plan_;
   Invocation& invocation_;
   ReportFile& file_;
+  std::optional<PeakMemory> peak_;
   int status_ = 0;
 };
 

@@ -91,7 +91,7 @@ std::string to_json(const EditTotals& totals) {
   json["changed"] = totals.n_changed;
   json["stored_blocks"] = totals.n_stored_blocks;
   json["stored_bytes"] = totals.stored_bytes;
-  json["peak_bytes"] = peak_bytes();
+  json["peak_bytes"] = totals.peak_bytes;
   json["warnings"] = totals.warnings;
   return one_line(json);
 }

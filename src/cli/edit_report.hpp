@@ -57,6 +57,7 @@ struct EditTotals {
   std::uint64_t n_changed = 0;  ///< samples, each edit's counted
   std::uint64_t n_stored_blocks = 0;
   std::uint64_t stored_bytes = 0;
+  std::uint64_t peak_bytes = 0;  ///< as RunReport's
   std::vector<std::string> warnings;
 };
 

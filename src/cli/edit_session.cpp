@@ -58,7 +58,9 @@ EditSession::EditSession(const EditArgs& args, EditPlan plan, Invocation& invoca
       plan_(std::move(plan)),
       invocation_(invocation),
       report_(plan_.report),
-      script_(plan_.script, {.open = {}, .root = plan_.surface.source.root}) {}
+      script_(plan_.script, {.open = {}, .root = plan_.surface.source.root}) {
+  if (is_heard() || plan_.surface.common.verbose) peak_.emplace();
+}
 
 void EditSession::check_script() {
   if (script_.is_live() || plan_.keep_going) return;
@@ -108,7 +110,9 @@ void EditSession::check_outputs() {
 void EditSession::open_input() {
   const std::vector<std::string>& inputs = args_.mesh.source.inputs;
   totals_.input = inputs.front();
-  source_.emplace(open_source(inputs, plan_.surface.source, invocation_.console));
+  SourceOptions options = plan_.surface.source;
+  options.memory_bytes = plan_.surface.memory_bytes;
+  source_.emplace(open_source(inputs, options, invocation_.console));
   totals_.input = source_->place;
   check_region(source_->reader, plan_.surface.extract.region);
   note_chosen_grid(*source_, plan_.surface.source, invocation_.console);
@@ -119,7 +123,7 @@ void EditSession::choose_surface() {
   const Volume& volume = volume_of(source_->reader);
   const auto measure = [&](std::span<const double> percentiles) {
     return measure_field(source_->reader, percentiles, invocation_.console,
-                         invocation_.stop.get_token());
+                         invocation_.stop.get_token(), plan_.surface.memory_bytes);
   };
   ExtractPlan& surface = plan_.surface;
   const std::vector<Iso> isos = choose_isos(surface.isos, volume, source_->place, measure);
@@ -294,6 +298,7 @@ void EditSession::write_output(EditOutput output) {
   if (const ExtractPlan* mesh = mesh_plan(output)) {
     RunReport report;
     run_open_job(*mesh, output.path, edited, invocation_, report);
+    if (peak_) report.peak_bytes = peak_->bytes();
     if (is_heard()) tell(to_json(report));
     return;
   }
@@ -382,6 +387,11 @@ void EditSession::close_report(int status, const std::optional<std::string>& err
     totals_.stored_bytes = store_->stored_bytes();
   }
   totals_.warnings = invocation_.console.take_warnings();
+  if (peak_) {
+    totals_.peak_bytes = peak_->bytes();
+    invocation_.console.detail(
+        fmt::format("memory: {} at its peak", size_text(totals_.peak_bytes)));
+  }
   if (is_heard()) tell(to_json(totals_));
   report_.finish();
 }

@@ -13,6 +13,7 @@
 #include "cli/edit_report.hpp"
 #include "cli/invocation.hpp"
 #include "cli/journal.hpp"
+#include "cli/peak_memory.hpp"
 #include "cli/report_file.hpp"
 #include "cli/resolve_edit.hpp"
 #include "mc/edit.hpp"
@@ -65,6 +66,7 @@ class EditSession {
   EditPlan plan_;
   Invocation& invocation_;
   ReportFile report_;
+  std::optional<PeakMemory> peak_;  // only with a report
   source::Script script_;
   std::optional<Source> source_;
   std::optional<EditStore> store_;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "base/machine_memory.hpp"
 #include "base/parallel.hpp"
 #include "cli/batch.hpp"
 #include "cli/command_line.hpp"
@@ -22,6 +23,7 @@ int report_usage(const ExtractArgs& args, Invocation& invocation, const Failure&
   RunReport report;
   report.status = show(invocation.console, failure);
   report.error = fmt::format("{}", fmt::join(failure.lines, "\n"));
+  report.peak_bytes = base::resident_bytes();
   if (!args.source.inputs.empty()) report.input = args.source.inputs.front();
   report.output = args.output;
   const bool clash = args.report && args.report == args.output;

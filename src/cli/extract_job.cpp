@@ -110,6 +110,7 @@ void Extraction::open(const std::vector<std::string>& inputs) {
   report_.input = inputs.front();
   SourceOptions options = plan_.source;
   options.streams = true;
+  options.memory_bytes = plan_.memory_bytes;
   timed("open", [&] { take(opened_.emplace(open_source(inputs, options, invocation_.console))); });
   note_chosen_grid(*source_, plan_.source, invocation_.console);
 }
@@ -143,8 +144,8 @@ void Extraction::place_mesh() {
 FieldStatistics Extraction::measure(std::span<const double> percentiles) {
   FieldStatistics statistics;
   timed("statistics", [&] {
-    statistics =
-        measure_field(reader(), percentiles, invocation_.console, invocation_.stop.get_token());
+    statistics = measure_field(reader(), percentiles, invocation_.console,
+                               invocation_.stop.get_token(), plan_.memory_bytes);
   });
   return statistics;
 }
@@ -160,7 +161,7 @@ void Extraction::keep_what_is_read_again() {
 }
 
 void Extraction::choose_surface() {
-  if (!plan_.dry_run) check_memory(reader(), run_options({}));
+  check_memory(reader(), run_options({}));
   inside_ = choose_inside(plan_.inside, plan_.invert, volume());
   border_ = choose_border(plan_.border, volume());
   report_.inside = inside_;
@@ -219,8 +220,14 @@ SinkOptions Extraction::sink_options() const {
 }
 
 MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
+  RunOptions options = run_options(iso);
+  if (plan_.common.verbose) {
+    options.tell_need = [this](const MemoryNeed& need) {
+      invocation_.console.detail(fmt::format("memory: {}", memory_text(need)));
+    };
+  }
   try {
-    return mc::run(reader(), run_options(iso), plan_.allow_empty, sink, invocation_.console,
+    return mc::run(reader(), options, plan_.allow_empty, sink, invocation_.console,
                    invocation_.stop.get_token());
   } catch (const Error& e) {
     if (e.kind() != ErrorKind::empty) throw;
@@ -294,8 +301,8 @@ void Extraction::describe() const {
   text += fmt::format("border   {}\n", name_of(border_));
   text += fmt::format("frame    {}, units {}\n", name_of(placement_.source_frame),
                       name_of(placement_.units));
-  text +=
-      fmt::format("memory   {}\n", size_text(memory_needed(reader(), run_options(isos_.front()))));
+  text += fmt::format("memory   {}\n",
+                      memory_text(memory_needed(reader(), run_options(isos_.front()))));
   text += fmt::format("output   {} ({})\n", output_, plan_.format);
   print_out(text);
 }

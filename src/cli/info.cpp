@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "base/parallel.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
+#include "cli/placement.hpp"
 #include "cli/report.hpp"
+#include "cli/resolve.hpp"
 #include "cli/surface_choice.hpp"
 #include "cli/values.hpp"
+#include "mc/pipe.hpp"
+#include "mc/sink.hpp"
 
 // `mc info`: what an input holds, and what extract would do with it.
 
@@ -33,13 +41,90 @@ std::vector<std::vector<std::string>> grouped(const SourceArgs& args) {
   return groups;
 }
 
-void measure_grid(const Source& source, GridInfo& grid, Invocation& invocation) {
-  grid.statistics = measure_field(source.reader, kInfoPercentiles, invocation.console,
-                                  invocation.stop.get_token());
+/// What is wanted to know, and within which memory.
+struct Wish {
+  bool memory_estimate = false;
+  std::uint64_t memory_bytes = 0;
+};
+
+/// What sinks of binary formats make of a chunk.
+Formatted any_binary(bool f32_moves) {
+  Formatted most;
+  for (const char* format : {"ply", "stl", "glb"}) {
+    const Formatted one = mesh_needs(format, {}, f32_moves).formatted;
+    most.vertex_bytes = std::max(most.vertex_bytes, one.vertex_bytes);
+    most.triangle_bytes = std::max(most.triangle_bytes, one.triangle_bytes);
+  }
+  return most;
+}
+
+/// What a stream's planes need that a file's do not: `kept` was copied here.
+class PassingPlanes final : public SlabReader {
+ public:
+  explicit PassingPlanes(const SlabReader& kept) : kept_(kept) {}
+  [[nodiscard]] const Volume& volume() const override { return kept_.volume(); }
+  void read(std::int32_t k0, std::int32_t k1, Slab& out) const override { kept_.read(k0, k1, out); }
+  [[nodiscard]] bool rereads_cheaply() const override { return false; }
+  [[nodiscard]] bool reads_once() const override { return true; }
+
+ private:
+  const SlabReader& kept_;
+};
+
+/// What a stream of the samples of `reader` needs in place of `need`.
+MemoryNeed as_stream(MemoryNeed need, const VolumeReader& reader, const RunOptions& options) {
+  const SlabReader& kept = *std::get<std::unique_ptr<SlabReader>>(reader);
+  const MemoryNeed plain = memory_needed(reader, options);
+  const MemoryNeed passing = memory_needed(std::make_unique<PassingPlanes>(kept), options);
+  const auto more = [](std::uint64_t now, std::uint64_t before) {
+    return now > before ? now - before : 0;
+  };
+  need.most = std::min(need.budget, need.most + more(passing.most, plain.most));
+  need.expected = std::min(need.most, need.expected + more(passing.expected, plain.expected));
+  need.least = std::max(need.least, passing.least);
+  return need;
+}
+
+/// Of a mesh at the suggested iso by mc-extract(1), in any binary format.
+MemoryNeed estimate(const VolumeReader& reader, double iso, bool passes_by, const Wish& wish,
+                    Invocation& invocation) {
+  const Volume& volume = volume_of(reader);
+  RunOptions options;
+  options.extract.iso = iso;
+  options.extract.inside = choose_inside({}, false, volume);
+  options.extract.border = choose_border({}, volume);
+  options.extract.normals = Normals::gradient;
+  options.memory_bytes = wish.memory_bytes;
+  const Lattice& lattice = volume.lattice;
+  const bool f32_moves = rounding_loss(lattice.box, lattice.to_world, Precision::f32).matters;
+  options.extract.precision = f32_moves ? Precision::f64 : Precision::f32;
+  options.formatted = any_binary(f32_moves);
+  const MemoryNeed need = memory_counted(reader, options, invocation.stop.get_token());
+  return passes_by ? as_stream(need, reader, options) : need;
+}
+
+/// Copies a stream, whose samples are read more than once here. Returns whether it is one.
+bool keep(const VolumeReader& reader, Progress& progress) {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  if (dense == nullptr || !(*dense)->reads_once()) return false;
+  (*dense)->keep_planes(progress);
+  return true;
+}
+
+void measure_grid(const VolumeReader& reader, bool piped, const Wish& wish, GridInfo& grid,
+                  Invocation& invocation) {
+  const Volume& volume = volume_of(reader);
+  const bool streams = keep(reader, invocation.console);
+  const bool streamed_by_extract =
+      streams || (piped && (volume.format == "raw" || volume.format == "nrrd"));
+  grid.statistics = measure_field(reader, kInfoPercentiles, invocation.console,
+                                  invocation.stop.get_token(), wish.memory_bytes);
   invocation.console.end_stage();
-  const Iso iso = default_iso(volume_of(source.reader), &*grid.statistics);
+  const Iso iso = default_iso(volume, &*grid.statistics);
   grid.iso = iso.value;
   grid.iso_reason = iso.reason;
+  if (!wish.memory_estimate || !std::isfinite(iso.value)) return;
+  grid.memory = estimate(reader, iso.value, streamed_by_extract, wish, invocation);
 }
 
 /// A FIFO, or what a shell puts in place of <(command): it gives its bytes once.
@@ -49,13 +134,21 @@ bool opens_once(const std::string& input) {
   return input != "-" && std::filesystem::is_fifo(status);
 }
 
+/// Whether stdin is the input, and no file.
+bool is_piped(const std::string& input) {
+  struct stat status {};
+  return input == "-" && ::fstat(STDIN_FILENO, &status) == 0 && !S_ISREG(status.st_mode);
+}
+
 /// The one grid that is taken of what opens once.
 void inspect_once(const std::vector<std::string>& inputs, const SourceOptions& options,
-                  Invocation& invocation, InputInfo& info) {
-  const Source source = open_source(inputs, options, invocation.console);
+                  const Wish& wish, Invocation& invocation, InputInfo& info) {
+  SourceOptions once = options;
+  once.streams = true;
+  const Source source = open_source(inputs, once, invocation.console);
   const Volume& volume = volume_of(source.reader);
-  info.grids.push_back({{volume, sample_name(volume.type), ""}, {}, 0, {}});
-  measure_grid(source, info.grids.front(), invocation);
+  info.grids.push_back({{volume, sample_name(volume.type), ""}, {}, 0, {}, {}});
+  measure_grid(source.reader, false, wish, info.grids.front(), invocation);
   if (!source.other_grids.empty()) {
     invocation.console.note(fmt::format("{}: holds other grids too: {}; a FIFO shows one",
                                         info.place, fmt::join(source.other_grids, ", ")));
@@ -63,20 +156,25 @@ void inspect_once(const std::vector<std::string>& inputs, const SourceOptions& o
 }
 
 /// Grids in the file's order; `#n` names the n-th of them whatever its name.
-void inspect(const std::vector<std::string>& inputs, const SourceOptions& options,
+void inspect(const std::vector<std::string>& inputs, const SourceOptions& options, const Wish& wish,
              Invocation& invocation, InputInfo& info) {
   info.place = inputs.front() == "-" ? "<stdin>" : inputs.front();
   if (inputs.size() == 1 && opens_once(inputs.front())) {
-    inspect_once(inputs, options, invocation, info);
+    inspect_once(inputs, options, wish, invocation, info);
     return;
   }
+  const bool piped = is_piped(inputs.front());
   const auto grids = describe_source(inputs, options, invocation.console);
-  for (const GridDescription& description : grids) info.grids.push_back({description, {}, 0, {}});
+  for (const GridDescription& description : grids) {
+    info.grids.push_back({description, {}, 0, {}, {}});
+  }
   for (std::size_t n = 0; n < info.grids.size(); ++n) {
     if (!info.grids[n].description.refused.empty()) continue;
     SourceOptions one = options;
+    one.streams = true;
     if (grids.size() > 1) one.grid = fmt::format("#{}", n);
-    measure_grid(open_source(inputs, one, invocation.console), info.grids[n], invocation);
+    measure_grid(open_source(inputs, one, invocation.console).reader, piped, wish, info.grids[n],
+                 invocation);
   }
 }
 
@@ -94,6 +192,7 @@ std::string value_lines(const GridInfo& grid) {
     text += fmt::format(" p{} {}", kInfoPercentiles[n], iso_text(s.percentiles[n], type));
   }
   text += fmt::format("\n  iso          {} ({})\n", iso_text(grid.iso, type), grid.iso_reason);
+  if (grid.memory) text += fmt::format("  memory       {}\n", memory_text(*grid.memory));
   return text;
 }
 
@@ -148,7 +247,9 @@ int run_info(Invocation& invocation, std::vector<std::string> words) {
                 "see mc info --help");
   }
   const CommonOptions common = resolve_common(args.common);
-  const SourceOptions source = resolve_source(args.source);
+  const Wish wish{args.memory_estimate || args.common.verbose > 0, resolve_memory(args.memory)};
+  SourceOptions source = resolve_source(args.source);
+  source.memory_bytes = wish.memory_bytes;
   invocation.console.configure(common);
   std::optional<base::ThreadLimit> limit;
   if (common.threads > 0) limit.emplace(common.threads);
@@ -157,7 +258,7 @@ int run_info(Invocation& invocation, std::vector<std::string> words) {
   for (const auto& inputs : grouped(args.source)) {
     InputInfo info;
     const auto failure = attempt([&] {
-      inspect(inputs, source, invocation, info);
+      inspect(inputs, source, wish, invocation, info);
       refuse_changed_inputs();
     });
     if (failure) {

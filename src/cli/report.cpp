@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/report.hpp"
 
-#include <sys/resource.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "cli/values.hpp"
 
 // All JSON that leaves the program. Keys keep their order; numbers that are not finite are null;
 // bytes that are no UTF-8 (in file names) are replaced.
@@ -129,6 +131,12 @@ Json grid_json(const GridInfo& grid) {
   json["percentiles"] = percentiles;
   json["suggested_iso"] = grid.iso;
   json["iso_reason"] = grid.iso_reason;
+  if (grid.memory) {
+    json["memory"] = {{"budget", grid.memory->budget},
+                      {"expected", grid.memory->expected},
+                      {"most", grid.memory->most},
+                      {"least", grid.memory->least}};
+  }
   return json;
 }
 
@@ -149,7 +157,7 @@ std::string to_json(const RunReport& report) {
   json["affine"] = report.placement ? Json(report.placement->to_world.m) : Json();
   add_totals(json, report.totals);
   json["stages"] = stages_json(report.stages);
-  json["peak_bytes"] = peak_bytes();
+  json["peak_bytes"] = report.peak_bytes;
   json["warnings"] = report.warnings;
   return one_line(json);
 }
@@ -208,10 +216,9 @@ const char* name_of(VolumeClass cls) {
   return "unknown";
 }
 
-std::uint64_t peak_bytes() {
-  struct rusage usage {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+std::string memory_text(const MemoryNeed& need) {
+  return fmt::format("{} expected, {} at most, of {}; {} would do", size_text(need.expected),
+                     size_text(need.most), size_text(need.budget), size_text(need.least));
 }
 
 }  // namespace mc::cli

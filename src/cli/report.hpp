@@ -10,6 +10,7 @@
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
 #include "mc/mesh.hpp"
+#include "mc/pipe.hpp"
 #include "mc/source.hpp"
 
 // What the program says in JSON: `--report`, `info --json`, `check --json`. Each is one line. Keys
@@ -36,6 +37,7 @@ struct RunReport {
   std::optional<Inside> inside;
   std::vector<MeshTotals> totals;  ///< one an iso
   std::vector<Stage> stages;
+  std::uint64_t peak_bytes = 0;  ///< most that the process has held, pages of mapped files aside
   std::vector<std::string> warnings;
 };
 
@@ -47,6 +49,7 @@ struct GridInfo {
   std::optional<FieldStatistics> statistics;  ///< of grids that can be meshed
   double iso = 0;                             ///< suggested; only with statistics
   std::string iso_reason;
+  std::optional<MemoryNeed> memory;  ///< of an extraction, where that was asked for
 };
 
 /// The percentiles that `info` shows.
@@ -63,7 +66,7 @@ std::string to_json(const std::string& path, const MeshReport& report, bool defe
 
 const char* name_of(VolumeClass cls);
 
-/// The most memory this process has held, in bytes.
-std::uint64_t peak_bytes();
+/// "40.0 MiB expected, 512.0 MiB at most, of 1.0 GiB; 13.0 MiB would do".
+std::string memory_text(const MemoryNeed& need);
 
 }  // namespace mc::cli

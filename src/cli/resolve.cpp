@@ -8,6 +8,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "base/machine_memory.hpp"
 #include "cli/command_line.hpp"
 #include "cli/file_list.hpp"
 #include "cli/values.hpp"
@@ -306,6 +307,10 @@ Normals parse_normals(const std::string& text) {
   return parse_choice("--normals", text, kHow);
 }
 
+std::uint64_t resolve_memory(const std::optional<std::string>& text) {
+  return text ? parse_size("--memory", *text) : base::default_budget_bytes();
+}
+
 ExtractPlan resolve(const ExtractArgs& args) {
   ExtractPlan plan;
   check_batch(args);
@@ -321,7 +326,7 @@ ExtractPlan resolve(const ExtractArgs& args) {
   resolve_normals(args, plan);
   resolve_place(args, plan.place);
   resolve_form(args, plan);
-  if (args.memory) plan.memory_bytes = parse_size("--memory", *args.memory);
+  plan.memory_bytes = resolve_memory(args.memory);
   plan.report = args.report;
   plan.dry_run = args.dry_run;
   plan.allow_empty = args.allow_empty;
@@ -353,7 +358,7 @@ SamplePlan resolve(const SampleArgs& args) {
   plan.job = {args.source.inputs, *args.output};
   if (args.region) plan.region = parse_region("--region", *args.region);
   plan.slice = resolve_slice(args, plan.format);
-  if (args.memory) plan.memory_bytes = parse_size("--memory", *args.memory);
+  plan.memory_bytes = resolve_memory(args.memory);
   return plan;
 }
 

@@ -94,6 +94,8 @@ struct SamplePlan {
 /// All Errors of these are of kind usage.
 CommonOptions resolve_common(const CommonArgs& args);
 SourceOptions resolve_source(const SourceArgs& args);
+/// The budget of --memory, or the default.
+std::uint64_t resolve_memory(const std::optional<std::string>& text);
 /// The values of --type and --normals.
 SampleType parse_type(const std::string& text);
 Normals parse_normals(const std::string& text);

@@ -30,6 +30,7 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
   // All planes are written in order; a slice or a region is not all of them.
   plan.source.streams = !plan.slice && !plan.region;
+  plan.source.memory_bytes = plan.memory_bytes;
   const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
   note_chosen_grid(source, plan.source, invocation.console);
   check_region(source.reader, plan.region);

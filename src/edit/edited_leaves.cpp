@@ -33,6 +33,9 @@ class EditedLeaves final : public LeafReader {
   [[nodiscard]] Scalar background() const override { return samples_.background(); }
   [[nodiscard]] std::span<const Index3> leaves() const override { return origins_; }
   [[nodiscard]] std::span<const Tile> tiles() const override { return tiles_; }
+  [[nodiscard]] std::uint64_t held_bytes() const override {
+    return samples_.filled() ? 0 : samples_.input().leaves()->held_bytes();
+  }
 
   const std::byte* leaf_values(std::size_t n, std::byte* scratch) const override {
     if (sources_[n] != kStored) {

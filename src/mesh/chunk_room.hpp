@@ -20,6 +20,12 @@ constexpr std::uint64_t vertex_bytes(Precision precision, bool has_normals) {
 /// Bytes of one triangle in a chunk.
 constexpr std::uint64_t kTriangleBytes = 3 * sizeof(std::uint32_t);
 
+/// Bytes that a chunk is filled with.
+constexpr std::uint64_t content_bytes(std::uint64_t n_vertices, std::uint64_t n_triangles,
+                                      std::uint64_t vertex_bytes) {
+  return n_vertices * vertex_bytes + n_triangles * kTriangleBytes;
+}
+
 class ChunkRoom {
  public:
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();

@@ -111,11 +111,15 @@ class DenseTasks final : public TaskList {
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
     return extraction::DenseBands::least_bytes(grid_);
   }
-  [[nodiscard]] std::uint64_t smooth_chunk_bytes() const override {
-    // A flat surface through the slab: about a vertex and two triangles a column, twice over.
-    const ExtractOptions& o = grid_.options;
-    return 2 * plane_samples_ *
-           (mesh::vertex_bytes(o.precision, o.normals != Normals::none) + 2 * mesh::kTriangleBytes);
+  [[nodiscard]] std::uint64_t smooth_content_bytes() const override {
+    // A flat surface through the slab: about a vertex and two triangles a column.
+    return mesh::content_bytes(plane_samples_, 2 * plane_samples_, vertex_bytes());
+  }
+  [[nodiscard]] std::uint64_t most_content_bytes() const override {
+    constexpr std::uint64_t kNoBudget = std::uint64_t{1} << 48U;
+    const std::uint64_t cells =
+        std::min(plane_samples_, kNoBudget / kMaxLayers) * static_cast<std::uint64_t>(layers_ + 1);
+    return mesh::content_bytes(3 * cells, extraction::kMaxTriangles * cells, vertex_bytes());
   }
 
  private:
@@ -131,6 +135,10 @@ class DenseTasks final : public TaskList {
     Rest rest;
   };
 
+  [[nodiscard]] std::uint64_t vertex_bytes() const {
+    const ExtractOptions& o = grid_.options;
+    return mesh::vertex_bytes(o.precision, o.normals != Normals::none);
+  }
   [[nodiscard]] std::int32_t first(std::size_t n) const {
     return static_cast<std::int32_t>(n) * layers_;
   }

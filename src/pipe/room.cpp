@@ -22,6 +22,9 @@ constexpr std::uint64_t kPieceShare = 64;
 /// Chunks that are smaller than so many pieces are not worth a thread.
 constexpr std::uint64_t kPiecesAChunk = 2;
 
+/// A buffer that moves is there with one twice as large.
+constexpr std::uint64_t kMostGrowth = 3;
+
 /// A vertex's material in its chunk, and the most that a sink makes of it.
 constexpr std::uint64_t kMaterialBytes = 2 + 8;
 
@@ -35,8 +38,12 @@ class Shares {
 
   /// A chunk of so many bytes with what is made of it, whether it is all vertices or all triangles.
   [[nodiscard]] std::uint64_t with_made(std::uint64_t chunk_bytes) const {
-    return chunk_bytes + std::max(scaled(chunk_bytes, made_vertex_, vertex_),
-                                  scaled(chunk_bytes, made_triangle_, mesh::kTriangleBytes));
+    return chunk_bytes + made(chunk_bytes);
+  }
+  /// The same while it grows to so much: a buffer that moves is there twice, beside what was made
+  /// of the chunk before.
+  [[nodiscard]] std::uint64_t growing(std::uint64_t content_bytes) const {
+    return content_bytes + with_made(content_bytes);
   }
   /// The largest chunk for which that is at most `bytes`.
   [[nodiscard]] std::uint64_t chunk_of(std::uint64_t bytes) const {
@@ -45,34 +52,44 @@ class Shares {
   }
 
  private:
+  [[nodiscard]] std::uint64_t made(std::uint64_t chunk_bytes) const {
+    return std::max(scaled(chunk_bytes, made_vertex_, vertex_),
+                    scaled(chunk_bytes, made_triangle_, mesh::kTriangleBytes));
+  }
   static std::uint64_t scaled(std::uint64_t bytes, std::uint64_t by, std::uint64_t part) {
     return bytes / part * by + bytes % part * by / part;
   }
   std::uint64_t vertex_, made_vertex_, made_triangle_;
 };
 
-std::uint64_t piece_bytes(const TaskList& tasks, const RunOptions& options) {
-  return std::max(std::min(options.memory_bytes / kPieceShare, kMostPieceBytes),
-                  tasks.least_chunk_bytes());
+/// What is left beside the input. An input of more than half of the memory, which nobody can make
+/// smaller, leaves half.
+std::uint64_t own_budget(const TaskList& tasks, const RunOptions& options) {
+  return options.memory_bytes - std::min(tasks.input_bytes(), options.memory_bytes / 2);
+}
+
+std::uint64_t piece_bytes(const TaskList& tasks, std::uint64_t budget) {
+  return std::max(std::min(budget / kPieceShare, kMostPieceBytes), tasks.least_chunk_bytes());
+}
+
+/// Bytes of a run beside its input.
+std::uint64_t own_bytes(const TaskList& tasks, const Room& room, const RunOptions& options) {
+  const Shares shares(options);
+  return kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
+         room.n_slots * shares.with_made(room.chunk_bytes) +
+         room.n_makers * shares.with_made(room.piece_bytes);
 }
 
 /// The room of so many tasks at once, whose chunks get what is left; of no bytes where there is
 /// none.
 Room room_of(TaskList& tasks, std::size_t n_slots, const RunOptions& options) {
-  const Shares shares(options);
-  Room room{n_slots, 0, n_slots, piece_bytes(tasks, options)};
-  const std::uint64_t fixed = kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
-                              room.n_makers * shares.with_made(room.piece_bytes);
-  if (fixed < options.memory_bytes) {
-    room.chunk_bytes = shares.chunk_of((options.memory_bytes - fixed) / n_slots);
+  const std::uint64_t budget = own_budget(tasks, options);
+  Room room{n_slots, 0, n_slots, piece_bytes(tasks, budget)};
+  const std::uint64_t fixed = own_bytes(tasks, room, options);
+  if (fixed < budget) {
+    room.chunk_bytes = Shares(options).chunk_of((budget - fixed) / n_slots);
   }
   return room;
-}
-
-std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
-  tasks.fit(1, 0);
-  const std::uint64_t chunk = tasks.least_chunk_bytes();
-  return bytes_of(tasks, {1, chunk, 1, chunk}, options);
 }
 
 std::string mebibytes(std::uint64_t bytes) {
@@ -85,10 +102,24 @@ std::string allowed(std::uint64_t bytes) {
 
 }  // namespace
 
-std::uint64_t bytes_of(const TaskList& tasks, const Room& room, const RunOptions& options) {
+std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
+  tasks.fit(1, 0);
+  const std::uint64_t chunk = tasks.least_chunk_bytes();
+  const std::uint64_t own = own_bytes(tasks, {1, chunk, 1, chunk}, options);
+  return own + std::min(own, tasks.input_bytes());
+}
+
+std::uint64_t bytes_of(const TaskList& tasks, const Room& room, std::uint64_t content_bytes,
+                       const RunOptions& options) {
   const Shares shares(options);
-  return kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
-         room.n_slots * shares.with_made(room.chunk_bytes) +
+  const std::uint64_t n_slots =
+      std::min<std::uint64_t>(room.n_slots, std::max<std::size_t>(tasks.n_tasks(), 1));
+  const std::uint64_t fixed =
+      tasks.input_bytes() + kProgramBytes + tasks.held_bytes(n_slots, room.n_makers);
+  const std::uint64_t growing = shares.growing(content_bytes);
+  if (content_bytes < room.chunk_bytes / kMostGrowth) return fixed + n_slots * growing;
+  const std::uint64_t slot = shares.with_made(room.chunk_bytes);
+  return fixed + n_slots * std::min(slot, growing) +
          room.n_makers * shares.with_made(room.piece_bytes);
 }
 
@@ -100,7 +131,7 @@ Room room_within(TaskList& tasks, const RunOptions& options) {
             std::max(options.chunk_bytes, tasks.least_chunk_bytes())};
   }
   for (std::size_t n_slots = base::pipeline_slots(); n_slots > 0; n_slots /= 2) {
-    tasks.fit(n_slots, options.memory_bytes / 2);
+    tasks.fit(n_slots, own_budget(tasks, options) / 2);
     const Room room = room_of(tasks, n_slots, options);
     if (room.chunk_bytes >= kPiecesAChunk * room.piece_bytes) return room;
   }

@@ -14,7 +14,12 @@ namespace mc::pipe {
 /// Errors   limit: not even one at a time; the message names the least budget.
 Room room_within(TaskList& tasks, const RunOptions& options);
 
-/// Bytes that a run of so much room holds at most, what the program holds anyway included.
-std::uint64_t bytes_of(const TaskList& tasks, const Room& room, const RunOptions& options);
+/// The least memory that room_within() takes.
+std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options);
+
+/// Bytes that a run of so much room holds at most, what the program holds anyway included, where a
+/// task fills its chunk with `content_bytes` at most.
+std::uint64_t bytes_of(const TaskList& tasks, const Room& room, std::uint64_t content_bytes,
+                       const RunOptions& options);
 
 }  // namespace mc::pipe

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "base/parallel.hpp"
 #include "mc/pipe.hpp"
+#include "mesh/chunk_room.hpp"
 #include "pipe/drive.hpp"
 #include "pipe/room.hpp"
 #include "pipe/tasks.hpp"
@@ -18,14 +23,53 @@ std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunO
   return pipe::sparse_tasks(*std::get<std::unique_ptr<LeafReader>>(reader), options);
 }
 
+/// Changes what the tasks were fit to.
+MemoryNeed need_of(pipe::TaskList& tasks, const RunOptions& options) {
+  MemoryNeed need;
+  need.budget = options.memory_bytes;
+  need.least = pipe::least_bytes(tasks, options);
+  const pipe::Room room = pipe::room_within(tasks, options);
+  need.most = pipe::bytes_of(tasks, room, tasks.most_content_bytes(), options);
+  need.expected = pipe::bytes_of(tasks, room, tasks.smooth_content_bytes(), options);
+  return need;
+}
+
+/// Bytes that the largest chunk of a task is filled with.
+std::uint64_t counted_content(pipe::TaskList& tasks, std::size_t n_slots, const RunOptions& options,
+                              const std::stop_token& stop) {
+  const ExtractOptions& o = options.extract;
+  const std::uint64_t vertex = mesh::vertex_bytes(o.precision, o.normals != Normals::none);
+  std::vector<pipe::TaskResult> counted(n_slots);
+  std::uint64_t most = 0;
+  const std::array<base::Step, 2> steps{
+      {{false,
+        [&](std::size_t n, std::size_t slot) {
+          if (stop.stop_requested()) throw Cancelled();
+          tasks.count(n, slot, counted[slot]);
+        }},
+       {true, [&](std::size_t /*n*/, std::size_t slot) {
+          const extraction::TaskTotals& totals = counted[slot].totals;
+          most = std::max(most, mesh::content_bytes(totals.n_vertices, totals.n_triangles, vertex));
+        }}}};
+  base::pipeline(tasks.n_tasks(), n_slots, steps);
+  return most;
+}
+
 }  // namespace
 
-std::uint64_t memory_needed(const VolumeReader& reader, const RunOptions& options) {
+MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options) {
+  return need_of(*tasks_for(reader, options), options);
+}
+
+MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
+                          const std::stop_token& stop) {
   const auto tasks = tasks_for(reader, options);
-  pipe::Room room = pipe::room_within(*tasks, options);
-  room.chunk_bytes = std::min(room.chunk_bytes, tasks->smooth_chunk_bytes());
-  room.piece_bytes = 0;
-  return pipe::bytes_of(*tasks, room, options);
+  MemoryNeed need = need_of(*tasks, options);
+  const pipe::Room room = pipe::room_within(*tasks, options);
+  tasks->set_room(room);
+  need.expected =
+      pipe::bytes_of(*tasks, room, counted_content(*tasks, room.n_slots, options, stop), options);
+  return need;
 }
 
 void check_memory(const VolumeReader& reader, const RunOptions& options) {
@@ -37,6 +81,7 @@ void check_memory(const VolumeReader& reader, const RunOptions& options) {
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop) {
   const auto tasks = tasks_for(reader, options);
+  if (options.tell_need) options.tell_need(need_of(*tasks, options));
   const pipe::Room room = pipe::room_within(*tasks, options);
   tasks->set_room(room);
   RunOptions chosen = options;

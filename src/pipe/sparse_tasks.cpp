@@ -61,11 +61,11 @@ class SparseTasks final : public TaskList {
     return plan_.bytes() + (n_slots + n_makers) * extraction::SparseExtractor::scratch_bytes();
   }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override { return piece_of(1); }
-  [[nodiscard]] std::uint64_t smooth_chunk_bytes() const override {
-    const ExtractOptions& o = plan_.options();
-    return kBlocksPerTask * 128 *  // a surface across and back
-           (mesh::vertex_bytes(o.precision, o.normals != Normals::none) + 2 * mesh::kTriangleBytes);
+  [[nodiscard]] std::uint64_t smooth_content_bytes() const override { return content_with(2); }
+  [[nodiscard]] std::uint64_t most_content_bytes() const override {
+    return content_with(4);  // a cell's edges, each of four cells, make two triangles fewer
   }
+  [[nodiscard]] std::uint64_t input_bytes() const override { return plan_.reader().held_bytes(); }
 
  private:
   struct Slot {
@@ -73,6 +73,19 @@ class SparseTasks final : public TaskList {
     std::size_t next, last;  // blocks that its task's chunk could not hold
   };
 
+  /// Of the largest chunk of a task, with so many triangles a vertex.
+  [[nodiscard]] std::uint64_t content_with(std::uint64_t n_triangles) const {
+    std::uint64_t n = 0;
+    for (std::size_t task = 0; task < n_tasks(); ++task) {
+      n = std::max(n, plan_.first_vertex(last(task)) - plan_.first_vertex(task * kBlocksPerTask));
+    }
+    return mesh::content_bytes(n, n_triangles * n, vertex_bytes()) +
+           extraction::SparseExtractor::most_bytes_of(1, plan_.options());
+  }
+  [[nodiscard]] std::uint64_t vertex_bytes() const {
+    const ExtractOptions& o = plan_.options();
+    return mesh::vertex_bytes(o.precision, o.normals != Normals::none);
+  }
   [[nodiscard]] std::size_t last(std::size_t n) const {
     return std::min(plan_.blocks().size(), (n + 1) * kBlocksPerTask);
   }

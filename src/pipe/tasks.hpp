@@ -62,8 +62,12 @@ class TaskList {
                                                  std::size_t n_makers) const = 0;
   /// Bytes that chunks of tasks and pieces must be allowed.
   [[nodiscard]] virtual std::uint64_t least_chunk_bytes() const = 0;
-  /// Bytes of chunk that one task makes of a smooth surface.
-  [[nodiscard]] virtual std::uint64_t smooth_chunk_bytes() const = 0;
+  /// Bytes that one task fills its chunk with, of a smooth surface.
+  [[nodiscard]] virtual std::uint64_t smooth_content_bytes() const = 0;
+  /// Bytes that one task can fill its chunk with, whatever the samples are.
+  [[nodiscard]] virtual std::uint64_t most_content_bytes() const = 0;
+  /// Bytes that the input holds.
+  [[nodiscard]] virtual std::uint64_t input_bytes() const { return 0; }
 };
 
 std::unique_ptr<TaskList> dense_tasks(const SlabReader& reader, const RunOptions& options);

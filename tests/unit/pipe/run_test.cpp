@@ -44,9 +44,33 @@ TEST(Run, CountsFirstWhereItIsWorthIt) {
 TEST(Run, NeedsMemoryForWhatTheSinkMakes) {
   const VolumeReader reader = sheets(1);
   RunOptions options;
-  const std::uint64_t plain = memory_needed(reader, options);
+  const MemoryNeed plain = memory_needed(reader, options);
   options.formatted = {.vertex_bytes = 4 * 24, .triangle_bytes = 4 * 12};
-  EXPECT_GT(memory_needed(reader, options), plain);
+  const MemoryNeed formatted = memory_needed(reader, options);
+  EXPECT_GT(formatted.expected, plain.expected);
+  EXPECT_GT(formatted.most, plain.most);
+  EXPECT_GT(formatted.least, plain.least);
+}
+
+TEST(Run, NeedsWhatTheSurfaceThatIsThereTakes) {
+  RunOptions options;
+  options.extract.iso = 0.5;
+  const MemoryNeed few = memory_counted(sheets(39), options, {});
+  const MemoryNeed many = memory_counted(sheets(1), options, {});
+  EXPECT_LT(few.expected, many.expected);
+  EXPECT_LE(many.expected, many.most);
+  EXPECT_LE(many.most, options.memory_bytes);
+  EXPECT_LE(few.least, few.expected);
+}
+
+TEST(Run, TellsItsNeedBeforeTheWork) {
+  const VolumeReader reader = sheets(1);
+  RunOptions options;
+  options.tell_need = [](const MemoryNeed& /*need*/) { throw Cancelled(); };
+  test::Collected out;
+  test::CollectingSink sink(out);
+  EXPECT_THROW(run(reader, options, false, sink, silent_progress(), {}), Cancelled);
+  EXPECT_FALSE(out.object.n_triangles);
 }
 
 /// The material of a place is the nearest sample's i; every place with j > 20 has none.
