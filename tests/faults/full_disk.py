@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: MIT
 """Places that take no more: full disks, file size limits, folders that are read-only or go away.
 
-    full_disk.py MC LIBRARY tmpfs|size-limit|read-only|vanishing KIND...
+    full_disk.py MC LIBRARY tmpfs|quota|size-limit|read-only|vanishing KIND...
 
 Status 4, one message with what the system said, an old output untouched, nothing else left.
-`tmpfs` mounts small file systems in a name space of its own; `size-limit` is RLIMIT_FSIZE, a
-stand-in for quotas, which no test can set up by itself. What a machine does not allow is skipped.
+`tmpfs` mounts small file systems in a name space of its own, `quota` a Btrfs in a file, whose
+quotas need nothing but its own tools; `size-limit` is RLIMIT_FSIZE. What a machine does not allow is
+skipped.
 """
 
 import os
@@ -18,6 +19,7 @@ import sys
 import program
 
 PAGE = 4096
+BTRFS_ITSELF = 3 << 14  # nodes of its trees
 
 
 def check_refused(faults, said, done, text):
@@ -71,6 +73,49 @@ def full_spool(mc, faults, folder, kinds):
     finally:
         subprocess.run(["umount", folder.spool], check=True)
     return len(kinds)
+
+
+def tool(*words):
+    return subprocess.run(words, capture_output=True, check=False).returncode == 0
+
+
+def quota(mc, faults, folder, kinds):
+    """Outputs on a disk that has room, of which only a part may be used."""
+    if not (shutil.which("mkfs.btrfs") and shutil.which("btrfs")):
+        program.skip("no tools for Btrfs, which has quotas")
+    return sum(quota_for(mc, faults, folder, kind) for kind in kinds if kind != "exr")
+
+
+def quota_for(mc, faults, folder, kind):
+    image = folder.path / "disk"
+    image.unlink(missing_ok=True)
+    with open(image, "wb") as disk:
+        disk.truncate(128 << 20)
+    if not (tool("mkfs.btrfs", "-q", image) and tool("mount", "-o", "loop", image, folder.out)):
+        program.skip("no Btrfs can be mounted here")
+    n_runs = 0
+    try:
+        words = program.output_words(folder, kind, program.output_name(kind))
+        whole = mc.run(folder, words)
+        if not faults.expect(whole.status == 0, kind, whole.stderr):
+            return 0
+        total, _ = sizes(folder)
+        folder.clear()
+        (folder.out / "old").write_bytes(b"old")
+        if not tool("btrfs", "quota", "enable", folder.out):
+            program.skip("this system's Btrfs has no quotas")
+        for part in (0.1, 0.3, 0.6):
+            limit = int(part * total) + BTRFS_ITSELF
+            tool("btrfs", "filesystem", "sync", folder.out)
+            faults.expect(tool("btrfs", "qgroup", "limit", str(limit), folder.out), kind, "no limit")
+            done = mc.run(folder, words)
+            said = f"{kind}, {limit} of {total} bytes allowed"
+            check_refused(faults, said, done, "Disk quota exceeded")
+            faults.expect(folder.contents() == {"old": b"old"}, said, sorted(folder.contents()))
+            n_runs += 1
+    finally:
+        subprocess.run(["umount", folder.out], check=True)
+    return n_runs
 
 
 def in_own_name_space(arguments):
@@ -171,14 +216,14 @@ def vanishing(mc, faults, folder, kinds):
 def main():
     mc, (how, *kinds) = program.arguments()
     faults = program.Faults()
-    if how == "tmpfs" and "MC_MAY_MOUNT" not in os.environ:
+    if how in {"tmpfs", "quota"} and "MC_MAY_MOUNT" not in os.environ:
         return in_own_name_space(sys.argv)
-    with program.Folder() as folder:
+    with program.Folder(size=64 if how == "quota" else 32) as folder:
         if how == "tmpfs":
             streams = [kind for kind in kinds if kind not in {"gltf", "exr", "nrrd", "raw"}]
             n_runs = full_disk(mc, faults, folder, kinds) + full_spool(mc, faults, folder, streams)
         else:
-            places = {"size-limit": size_limit, "read-only": read_only, "vanishing": vanishing}
+            places = {"quota": quota, "size-limit": size_limit, "read-only": read_only, "vanishing": vanishing}
             n_runs = places[how](mc, faults, folder, kinds)
     return faults.end(f"{how}: {n_runs} runs")
 

@@ -15,7 +15,7 @@ import program
 # Calls that only spare work: without them the bytes go through a buffer, a spool has a name for a
 # moment, a file is set aside by a rename.
 SPARED = {"copy_file_range", "sendfile", "renameat2", "tmpfile", "link"}
-# unlink() is not here: what the system does not let go, nobody can take away.
+# unlink() is not here: what the system does not let go, nobody can take away (see try_unlinks()).
 CALLS = ("open,read,pread,mmap,close,create,tmpfile,write,pwrite,fsync,rename,"
          "copy_file_range,sendfile,renameat2,link")
 MOST = 3000  # calls of one run
@@ -113,9 +113,43 @@ def try_input(mc, faults, folder, kind):
                   stdin=made.read_bytes())
 
 
+def try_unlinks(mc, faults, folder, kind):
+    """Call after call where no file can be removed: partial files may stay, but under the final name
+    is the old file or the new one, whole, as the status says."""
+    words = [*program.output_words(folder, kind, program.output_name(kind)), "--threads", "1"]
+    folder.clear()
+    faults.expect(mc.run(folder, words).status == 0, kind)
+    wanted = folder.contents()
+    before = {name: b"old" for name in wanted}
+    n_left = 0
+    for n in range(1, MOST):
+        folder.clear()
+        for name, old in before.items():
+            (folder.out / name).write_bytes(old)
+        done = mc.run(folder, [*words, "--force"], AT=n, ERRNO=errno.EIO, CALLS=CALLS,
+                      WITHOUT="unlink,tmpfile")
+        call = done.failed_call
+        after = folder.contents()
+        left = [name for name in after if name not in wanted]
+        n_left += len(left)
+        said = (kind, call or "without another fault")
+        statuses = expected_status(call, errno.EIO) if call else {0}
+        faults.expect(done.status in statuses, *said, "status", done.status, done.stderr)
+        faults.expect(len(done.errors()) == (done.status != 0), *said, "says", done.stderr)
+        faults.expect(all(".partial-" in name or ".mc-spool-" in name
+                          for name in left), *said, "left", left)
+        faults.expect({name: after.get(name) for name in wanted} ==
+                      (wanted if done.status == 0 else before), *said, "other bytes", done.stderr)
+        if call is None:
+            faults.expect(n_left > 0, kind, "no file that could not be removed")
+            yield n - 1
+            return
+    faults.expect(False, kind, "has no end")
+
+
 def main():
     mc, (direction, *kinds) = program.arguments()
-    attempts = try_input if direction == "from" else try_format
+    attempts = {"from": try_input, "to": try_format, "unlinks": try_unlinks}[direction]
     faults = program.Faults()
     with program.Folder() as folder:
         n_runs = sum(n for kind in kinds for n in attempts(mc, faults, folder, kind))
