@@ -167,6 +167,7 @@ void Drive::Work::count(bool allow_empty) {
   object.n_vertices = counted.n_vertices;
   object.n_triangles = counted.n_triangles;
   if (object.n_triangles == 0U && !allow_empty) throw no_surface();
+  if (object.n_triangles != 0U) begin_object_once();  // what a sink cannot hold is not made
 }
 
 void Drive::Work::extract() {

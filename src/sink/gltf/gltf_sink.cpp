@@ -76,9 +76,10 @@ std::array<float, 3> filled(float x) { return {x, x, x}; }
 
 class GltfSink final : public MeshSink {
  public:
-  /// Without `most_bin_bytes`: a GLB.
-  GltfSink(const std::string& path, const SinkOptions& options,
-           std::optional<std::uint64_t> most_bin_bytes);
+  enum class Form : bool { gltf, glb };
+  /// Files of at most `most_bytes`; the JSON of glTF does not count.
+  GltfSink(const std::string& path, const SinkOptions& options, Form form,
+           std::uint64_t most_bytes);
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
@@ -111,7 +112,7 @@ class GltfSink final : public MeshSink {
 
   SinkOptions options_;
   bool is_glb_;
-  std::uint64_t most_bin_bytes_;
+  std::uint64_t most_bytes_;
   OutputFile main_;                                // the GLB, or the JSON
   std::vector<std::unique_ptr<OutputFile>> bins_;  // glTF only
   std::optional<SpoolFile> body_;                  // the buffer, for a GLB to a stream
@@ -126,11 +127,11 @@ class GltfSink final : public MeshSink {
   std::vector<Slot> slots_{1};
 };
 
-GltfSink::GltfSink(const std::string& path, const SinkOptions& options,
-                   std::optional<std::uint64_t> most_bin_bytes)
+GltfSink::GltfSink(const std::string& path, const SinkOptions& options, Form form,
+                   std::uint64_t most_bytes)
     : options_(options),
-      is_glb_(!most_bin_bytes),
-      most_bin_bytes_(most_bin_bytes.value_or(0)),
+      is_glb_(form == Form::glb),
+      most_bytes_(most_bytes),
       main_(path, output_options(options, is_glb_)) {
   if (!is_glb_) {
     if (!main_.seekable()) {
@@ -186,11 +187,11 @@ void GltfSink::check_limits(const ObjectCounts& counts) const {
                                   counts.n_vertices * object.vertex_bytes();
     // Compared by division, since an announced count may be anything.
     const std::uint64_t indices = 3 * object.index_bytes();
-    if (n_bytes > kMostGlbBytes || counts.n_triangles > (kMostGlbBytes - n_bytes) / indices) {
+    if (n_bytes > most_bytes_ || counts.n_triangles > (most_bytes_ - n_bytes) / indices) {
       throw Error(ErrorKind::limit, place,
                   std::to_string(counts.n_vertices) + " vertices and " +
-                      std::to_string(counts.n_triangles) +
-                      " triangles, but a GLB holds at most 4294967295 bytes",
+                      std::to_string(counts.n_triangles) + " triangles, but a GLB holds at most " +
+                      std::to_string(most_bytes_) + " bytes",
                   "write .gltf or .ply");
     }
   }
@@ -327,7 +328,7 @@ void GltfSink::end_object(const MeshTotals& /*totals*/) {
   if (index_spool_) {
     take_spooled_indices();
   }
-  if (!is_glb_ && body_size() > most_bin_bytes_) {
+  if (!is_glb_ && body_size() > most_bytes_) {
     spread_over_bins();
   }
 }
@@ -350,7 +351,7 @@ void GltfSink::spread_over_bins() {
     }
     return add_bin().writer();
   };
-  cut_into_parts(source.writer(), whole, most_bin_bytes_, open, [&](const GltfObject& part) {
+  cut_into_parts(source.writer(), whole, most_bytes_, open, [&](const GltfObject& part) {
     objects_.push_back(part);
     objects_.back().buffer = bins_.size() - 1;
     n_repeated_ += part.n_vertices;
@@ -377,7 +378,7 @@ void GltfSink::finish_glb() {
   json.resize(static_cast<std::size_t>(room), ' ');
   const std::uint64_t bin_bytes = n_bytes == 0 ? 0 : kChunkHeader + aligned(n_bytes);
   const std::uint64_t total = kFileHeader + kChunkHeader + room + bin_bytes;
-  check_limit(main_.place(), total, "bytes", "a GLB", kMostGlbBytes, "write .gltf or .ply");
+  check_limit(main_.place(), total, "bytes", "a GLB", most_bytes_, "write .gltf or .ply");
   std::string head = "glTF" + word(2) + word(total) + word(room) + "JSON" + json;
   if (n_bytes != 0) {
     head += word(aligned(n_bytes)) + std::string("BIN\0", 4);
@@ -429,7 +430,12 @@ void GltfSink::finish() {
 }  // namespace
 
 std::unique_ptr<MeshSink> open_glb(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<GltfSink>(path, options, std::nullopt);
+  return open_glb_of(path, options, kMostGlbBytes);
+}
+
+std::unique_ptr<MeshSink> open_glb_of(const std::string& path, const SinkOptions& options,
+                                      std::uint64_t most_bytes) {
+  return std::make_unique<GltfSink>(path, options, GltfSink::Form::glb, most_bytes);
 }
 
 std::unique_ptr<MeshSink> open_gltf(const std::string& path, const SinkOptions& options) {
@@ -438,7 +444,7 @@ std::unique_ptr<MeshSink> open_gltf(const std::string& path, const SinkOptions& 
 
 std::unique_ptr<MeshSink> open_gltf_of(const std::string& path, const SinkOptions& options,
                                        std::uint64_t most_bytes) {
-  return std::make_unique<GltfSink>(path, options, most_bytes);
+  return std::make_unique<GltfSink>(path, options, GltfSink::Form::gltf, most_bytes);
 }
 
 }  // namespace mc::sink

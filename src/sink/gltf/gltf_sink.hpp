@@ -14,6 +14,9 @@ inline constexpr Formatted kGltfFormatted{.vertex_bytes = 24, .triangle_bytes = 
 
 /// glTF 2.0 in one binary file. Errors: output.
 std::unique_ptr<MeshSink> open_glb(const std::string& path, const SinkOptions& options);
+/// The same with a file of at most `most_bytes`: what tests want.
+std::unique_ptr<MeshSink> open_glb_of(const std::string& path, const SinkOptions& options,
+                                      std::uint64_t most_bytes);
 /// glTF 2.0 as JSON beside a .bin of the same name, or several of less than 4 GiB: NAME.bin,
 /// NAME-2.bin ... Errors: output; usage, when `path` is a stream.
 std::unique_ptr<MeshSink> open_gltf(const std::string& path, const SinkOptions& options);

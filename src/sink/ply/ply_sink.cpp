@@ -20,9 +20,7 @@ namespace mc::sink {
 
 namespace {
 
-constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;     // of a `uint` index
-constexpr std::uint64_t kMostIntVertices = std::uint64_t{1} << 31;  // of an `int` index
-constexpr std::size_t kFaceBytes = 13;                              // uchar 3, three indices
+constexpr std::size_t kFaceBytes = 13;  // uchar 3, three indices
 
 constexpr std::size_t kNormalBytes = 12;
 
@@ -41,8 +39,8 @@ constexpr std::size_t position_bytes(Precision precision) {
 
 class PlySink final : public MeshSink {
  public:
-  PlySink(const std::string& path, const SinkOptions& options)
-      : options_(options), out_(path, output_options(options, !options.ascii)) {}
+  PlySink(const std::string& path, const SinkOptions& options, const PlyLimits& limits)
+      : options_(options), limits_(limits), out_(path, output_options(options, !options.ascii)) {}
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
@@ -66,6 +64,7 @@ class PlySink final : public MeshSink {
   };
 
   SinkOptions options_;
+  PlyLimits limits_;
   OutputFile out_;
   MeshObject object_;
   bool begun_ = false;
@@ -82,7 +81,7 @@ std::size_t PlySink::vertex_bytes() const {
 }
 
 void PlySink::check_vertices(std::uint64_t n) const {
-  check_limit(out_.place(), n, "vertices", "PLY", kMostVertices,
+  check_limit(out_.place(), n, "vertices", "PLY", limits_.most_vertices,
               "write .obj, or one --region at a time");
 }
 
@@ -104,7 +103,7 @@ std::string PlySink::unpadded_header(const ObjectCounts& counts) const {
     text += "property ushort material\n";
   }
   text += "element face " + std::to_string(counts.n_triangles) + "\nproperty list uchar ";
-  text += counts.n_vertices > kMostIntVertices ? "uint" : "int";
+  text += counts.n_vertices > limits_.most_int_vertices ? "uint" : "int";
   return text + " vertex_indices\n";
 }
 
@@ -114,7 +113,8 @@ std::string PlySink::header(const ObjectCounts& counts) const {
   constexpr std::string_view kComment = "comment ";
   constexpr std::string_view kEnd = "\nend_header\n";
   const std::size_t widest =
-      unpadded_header({kMostVertices, ~std::uint64_t{0}}).size() + kComment.size() + kEnd.size();
+      unpadded_header({PlyLimits{}.most_vertices, ~std::uint64_t{0}}).size() + kComment.size() +
+      kEnd.size();
   const std::size_t width = (widest + 7) / 8 * 8;  // doubles that follow are aligned
   std::string text = unpadded_header(counts).append(kComment);
   text.append(width - text.size() - kEnd.size(), ' ').append(kEnd);
@@ -257,7 +257,12 @@ Formatted ply_formatted(Precision precision, bool ascii) {
 }
 
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<PlySink>(path, options);
+  return open_ply_of(path, options, {});
+}
+
+std::unique_ptr<MeshSink> open_ply_of(const std::string& path, const SinkOptions& options,
+                                      const PlyLimits& limits) {
+  return std::make_unique<PlySink>(path, options, limits);
 }
 
 }  // namespace mc::sink

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -13,5 +14,14 @@ Formatted ply_formatted(Precision precision, bool ascii);
 
 /// PLY, binary little endian or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options);
+
+/// How far the indices of PLY reach.
+struct PlyLimits {
+  std::uint64_t most_vertices = std::uint64_t{1} << 32U;      ///< of a `uint` index
+  std::uint64_t most_int_vertices = std::uint64_t{1} << 31U;  ///< of an `int` index
+};
+/// The same with less of a reach: what tests want.
+std::unique_ptr<MeshSink> open_ply_of(const std::string& path, const SinkOptions& options,
+                                      const PlyLimits& limits);
 
 }  // namespace mc::sink

@@ -97,8 +97,10 @@ void print_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::by
 
 class StlSink final : public MeshSink {
  public:
-  StlSink(const std::string& path, const SinkOptions& options)
-      : options_(options), out_(path, output_options(options, !options.ascii)) {}
+  StlSink(const std::string& path, const SinkOptions& options, std::uint64_t most_facets)
+      : options_(options),
+        most_facets_(most_facets),
+        out_(path, output_options(options, !options.ascii)) {}
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
@@ -118,6 +120,7 @@ class StlSink final : public MeshSink {
   };
 
   SinkOptions options_;
+  std::uint64_t most_facets_;
   OutputFile out_;
   MeshObject object_;
   bool begun_ = false;
@@ -128,7 +131,7 @@ class StlSink final : public MeshSink {
 };
 
 void StlSink::check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) const {
-  check_limit(out_.place(), n_triangles, "triangles", "STL", kMostFacets,
+  check_limit(out_.place(), n_triangles, "triangles", "STL", most_facets_,
               "write .ply or .obj, or one --region at a time");
   check_limit(out_.place(), n_vertices, "vertices", "STL", kMostVertices,
               "write .obj, or one --region at a time");
@@ -244,7 +247,12 @@ void StlSink::finish() {
 }  // namespace
 
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options) {
-  return std::make_unique<StlSink>(path, options);
+  return open_stl_of(path, options, kMostFacets);
+}
+
+std::unique_ptr<MeshSink> open_stl_of(const std::string& path, const SinkOptions& options,
+                                      std::uint64_t most_facets) {
+  return std::make_unique<StlSink>(path, options, most_facets);
 }
 
 }  // namespace mc::sink

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -13,5 +14,8 @@ inline constexpr Formatted kStlFormatted{.vertex_bytes = 12, .triangle_bytes = 1
 
 /// STL, binary or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options);
+/// The same with a count of facets that holds less: what tests want.
+std::unique_ptr<MeshSink> open_stl_of(const std::string& path, const SinkOptions& options,
+                                      std::uint64_t most_facets);
 
 }  // namespace mc::sink
