@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Peak memory under --memory: white noise, whose mesh is many times the volume, and a document.
+"""Peak memory under --memory: white noise, whose mesh is many times the volume, a document, a VDB.
 
-    peak.py --mc MC
+    peak.py --mc MC [--vdb]
 
 Anonymous resident memory is looked at every millisecond while the program runs: mapped input does
-not count. The same noise with all the memory it wants must take more than the budget, or the test
-would show nothing.
+not count. The same with all the memory it wants must take more than the budget, or the test would
+show nothing.
 """
 
 import argparse
@@ -21,6 +21,9 @@ import time
 DATA = pathlib.Path(__file__).resolve().parent.parent.parent / "data"
 MIB = 1 << 20
 DIMS = (1024, 1024, 8)
+CLOUDS = {"format": "mc-volume", "version": 1, "convention": "density", "iso": 0.2,
+          "grid": {"cells": [319] * 3, "spacing": 1},
+          "field": {"type": "perlin", "frequency": 0.05}}
 NOISE = ["--dims", ",".join(map(str, DIMS)), "--type", "u8", "--iso", "128"]
 
 
@@ -50,7 +53,9 @@ def peak(words, stdin=subprocess.DEVNULL):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--mc", required=True)
-    mc = parser.parse_args().mc
+    parser.add_argument("--vdb", action="store_true", help="VDB can be written and read")
+    args = parser.parse_args()
+    mc = args.mc
     faults = 0
     with tempfile.TemporaryDirectory(prefix="mc-peak-") as folder:
         noise = pathlib.Path(folder) / "noise.raw"
@@ -72,16 +77,25 @@ def main():
                   f"{'  TOO MUCH' if budget < 1024 and most > budget * MIB else ''}")
             return most
 
+        clouds = pathlib.Path(folder) / "clouds.vdb"
+        document = pathlib.Path(folder) / "clouds.json"
+        document.write_text(json.dumps(CLOUDS), encoding="utf-8")
+        if args.vdb:
+            subprocess.run([mc, "sample", document, "-q", "-o", clouds], check=True)
+
         for threads in (1, 2):
+            if args.vdb:
+                extract(64, threads, "ply", clouds, "--iso", "0.2")
             for to in ("ply", "glb", "obj", "stl"):
                 extract(64, threads, to, noise, *NOISE)
             extract(96, threads, "glb", spec)
         with noise.open("rb") as data:
             with subprocess.Popen(["cat"], stdin=data, stdout=subprocess.PIPE) as cat:
                 extract(64, 2, "ply", "-", *NOISE, stdin=cat.stdout, output="-")
-        if extract(4096, 2, "ply", noise, *NOISE) <= 64 * MIB:
-            print("the noise is too small to show anything")
-            faults += 1
+        for what, *words in ((noise, *NOISE), (clouds, "--iso", "0.2")):
+            if what.exists() and extract(4096, 2, "ply", what, *words) <= 64 * MIB:
+                print(f"{what.name} is too small to show anything")
+                faults += 1
     return 1 if faults else 0
 
 

@@ -16,9 +16,9 @@ namespace {
 
 }  // namespace
 
-VdbSource open_vdb(const MappedFile& file, const SourceOptions& /*options*/) { absent(file); }
+VdbSource open_vdb(MappedFile file, const SourceOptions& /*options*/) { absent(file); }
 
-std::vector<GridDescription> describe_vdb(const MappedFile& file) { absent(file); }
+std::vector<GridDescription> describe_vdb(MappedFile file) { absent(file); }
 
 }  // namespace mc::source
 

@@ -10,10 +10,12 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "source/vdb/packed_leaves.hpp"
 
 namespace mc::source {
 
@@ -91,6 +93,11 @@ class TreeReader : public LeafReader {
     return stored_[stored_at_[n]].active;
   }
   [[nodiscard]] std::span<const Tile> tiles() const override { return tiles_; }
+  [[nodiscard]] std::uint64_t held_bytes() const override {
+    return stored_.capacity() * sizeof(stored_[0]) + tiles_.capacity() * sizeof(tiles_[0]) +
+           origins_.capacity() * sizeof(origins_[0]) +
+           stored_at_.capacity() * sizeof(stored_at_[0]);
+  }
 
  protected:
   void measure();
@@ -171,6 +178,11 @@ class TypedReader final : public TreeReader {
   }
 
   const std::byte* leaf_values(std::size_t n, std::byte* scratch) const override {
+    if (packed_) {
+      packed_->read(n, stored_[stored_at_[n]].at, background_.as<T>(),
+                    reinterpret_cast<T*>(scratch));
+      return scratch;
+    }
     const std::byte* values = values_.get() + n * leaf_bytes_;
     if (!is_truth_) return values;
     for (std::size_t at = 0; at < kLeafSamples; ++at) {
@@ -179,7 +191,13 @@ class TypedReader final : public TreeReader {
     return scratch;
   }
 
-  void unpack_leaves(const TreeFile& file);
+  [[nodiscard]] std::uint64_t held_bytes() const override {
+    return TreeReader::held_bytes() + (values_ ? unpacked_bytes() : 0) +
+           (packed_ ? packed_->held_bytes() : 0);
+  }
+
+  /// Unpacks all leaves, or sees to it that each can be.
+  void read_leaves(const TreeFile& file, std::uint64_t memory_bytes);
 
  private:
   [[nodiscard]] T value_of(std::span<const std::byte> bytes) const {
@@ -188,11 +206,14 @@ class TypedReader final : public TreeReader {
   [[nodiscard]] T truth_of(T value) const { return is_truth_ ? static_cast<T>(value != 0) : value; }
   void collect_tiles(const TreeFile& file, const TreeOutline& outline);
   void collect_tiles(const TreeOutline::Node& node, std::span<const T> values);
+  [[nodiscard]] std::uint64_t unpacked_bytes() const { return leaves().size() * leaf_bytes_; }
+  void unpack_leaves(const TreeFile& file);
   void unpack_leaf(const TreeFile& file, std::size_t at, Unpacker& unpacker, std::byte* to) const;
 
   bool is_truth_;
   std::size_t leaf_bytes_;
-  LeafBytes values_;  // as the port orders leaves
+  LeafBytes values_;  // as the port orders leaves; or null
+  std::unique_ptr<PackedLeaves> packed_;
 };
 
 template <class T>
@@ -203,7 +224,7 @@ void TypedReader<T>::collect_tiles(const TreeFile& file, const TreeOutline& outl
       tiles_.push_back({tile.origin, TreeOutline::kRootTileSize, value, tile.active});
     }
   }
-  Unpacker unpacker(file.kind.storage, TreeOutline::kMostChildren, file.place, file.what);
+  Unpacker unpacker(file.kind.storage, TreeOutline::kMostChildren, file.place(), file.what);
   std::vector<T> values;
   for (const TreeOutline::Node& node : outline.nodes) {
     if (node.values.n_packed == 0 && node.values.inactive == PackedValues::Inactive::background) {
@@ -232,7 +253,7 @@ void TypedReader<T>::collect_tiles(const TreeOutline::Node& node, std::span<cons
 template <class T>
 void TypedReader<T>::unpack_leaf(const TreeFile& file, std::size_t at, Unpacker& unpacker,
                                  std::byte* to) const {
-  VdbCursor cursor(file.bytes, stored_[at].at, file.place);
+  VdbCursor cursor(file.bytes(), stored_[at].at, file.place());
   const LeafBuffer leaf = take_leaf(cursor, file.kind, file.what);
   if (is_truth_) {
     std::ranges::copy(leaf.bits, to);
@@ -250,20 +271,33 @@ void TypedReader<T>::unpack_leaves(const TreeFile& file) {
     number[stored_at_[n]] = static_cast<std::uint32_t>(n);
   }
   base::for_ranges(n_leaves, 256, [&](std::size_t begin, std::size_t end) {
-    Unpacker unpacker(file.kind.storage, kLeafSamples, file.place, file.what);
+    Unpacker unpacker(file.kind.storage, kLeafSamples, file.place(), file.what);
     for (std::size_t at = begin; at < end; ++at) {
       unpack_leaf(file, at, unpacker, values_.get() + number[at] * leaf_bytes_);
     }
   });
 }
 
+template <class T>
+void TypedReader<T>::read_leaves(const TreeFile& file, std::uint64_t memory_bytes) {
+  constexpr std::uint64_t kUnpackedPart = 2, kCachePart = 8;
+  const std::uint64_t most = memory_bytes / kUnpackedPart;
+  if (is_truth_ || TreeReader::held_bytes() + unpacked_bytes() <= most) {
+    unpack_leaves(file);
+  } else {
+    packed_ = std::make_unique<PackedLeaves>(file.file, file.kind, std::string(file.what),
+                                             memory_bytes / kCachePart);
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<LeafReader> read_vdb_tree(const TreeFile& file, TreeOutline outline,
-                                          const Volume& volume, LeafValues wanted) {
+                                          const Volume& volume, LeafValues wanted,
+                                          std::uint64_t memory_bytes) {
   const auto as = [&]<class T>(T /*type*/) -> std::unique_ptr<LeafReader> {
     auto reader = std::make_unique<TypedReader<T>>(file, std::move(outline), volume);
-    if (wanted == LeafValues::unpacked) reader->unpack_leaves(file);
+    if (wanted == LeafValues::read) reader->read_leaves(file, memory_bytes);
     return reader;
   };
   switch (volume.type) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -50,8 +51,11 @@ auto with_memory_for(std::string_view what, std::string_view place, F&& f) {
 /// for what follows a grid can then only be found behind it.
 class VdbFile {
  public:
-  explicit VdbFile(const MappedFile& file)
-      : bytes_(file.bytes()), place_(file.place()), layout_(read_vdb_layout(bytes_, place_)) {
+  explicit VdbFile(MappedFile file)
+      : file_(std::make_shared<const MappedFile>(std::move(file))),
+        bytes_(file_->bytes()),
+        place_(file_->place()),
+        layout_(read_vdb_layout(bytes_, place_)) {
     std::size_t at = layout_.first_descriptor;
     for (std::uint32_t n = 0; n < layout_.n_grids; ++n) {
       grids_.push_back(read_vdb_grid(bytes_, layout_, at, place_));
@@ -89,14 +93,16 @@ class VdbFile {
 
   /// Reads the tree of a grid that can be meshed.
   [[nodiscard]] std::unique_ptr<LeafReader> load(std::size_t chosen, const Volume& volume,
-                                                 LeafValues wanted) const {
+                                                 LeafValues wanted,
+                                                 std::uint64_t memory_bytes) const {
     const VdbGrid& grid = owner_of_tree(grids_[chosen]);
     const std::string name = naming(grids_[chosen]);
     return with_memory_for(name, place_, [&] {
       VdbCursor cursor = cursor_at_body(grid);
       read_vdb_map(cursor, name);
-      const TreeFile file{bytes_, tree_kind(grid).value(), place_, name};
-      return read_vdb_tree(file, walk_vdb_tree(cursor, file.kind, name), volume, wanted);
+      const TreeFile file{file_, tree_kind(grid).value(), name};
+      return read_vdb_tree(file, walk_vdb_tree(cursor, file.kind, name), volume, wanted,
+                           memory_bytes);
     });
   }
 
@@ -142,6 +148,7 @@ class VdbFile {
     return *owner;
   }
 
+  std::shared_ptr<const MappedFile> file_;
   std::span<const std::byte> bytes_;
   std::string place_;
   VdbLayout layout_;
@@ -173,8 +180,8 @@ bool take_statistics(const VdbGrid& grid, Volume& volume) {
 
 }  // namespace
 
-VdbSource open_vdb(const MappedFile& mapped, const SourceOptions& options) {
-  const VdbFile file(mapped);
+VdbSource open_vdb(MappedFile mapped, const SourceOptions& options) {
+  const VdbFile file(std::move(mapped));
   const std::size_t chosen = choose_grid(file.grids(), options.grid, file.place());
   auto [volume, refused] = file.outline(file.grids()[chosen]);
   const std::string name = naming(file.grids()[chosen]);
@@ -185,7 +192,7 @@ VdbSource open_vdb(const MappedFile& mapped, const SourceOptions& options) {
   check_map(volume.lattice.to_world, fmt::format("{}: {}", file.place(), name));
   volume.lattice.to_world = placed(volume.lattice.to_world, options);
   VdbSource out;
-  out.reader = file.load(chosen, volume, LeafValues::unpacked);
+  out.reader = file.load(chosen, volume, LeafValues::read, options.memory_bytes);
   if (is_empty(*out.reader)) {
     throw Error(ErrorKind::input, file.place(),
                 fmt::format("{}: empty, it holds nothing but background", name));
@@ -198,14 +205,14 @@ VdbSource open_vdb(const MappedFile& mapped, const SourceOptions& options) {
   return out;
 }
 
-std::vector<GridDescription> describe_vdb(const MappedFile& mapped) {
-  const VdbFile file(mapped);
+std::vector<GridDescription> describe_vdb(MappedFile mapped) {
+  const VdbFile file(std::move(mapped));
   std::vector<GridDescription> out;
   for (std::size_t n = 0; n < file.grids().size(); ++n) {
     const VdbGrid& grid = file.grids()[n];
     auto [volume, refused] = file.outline(grid);
     if (!take_statistics(grid, volume) && refused.empty()) {
-      const std::unique_ptr<LeafReader> reader = file.load(n, volume, LeafValues::left_packed);
+      const std::unique_ptr<LeafReader> reader = file.load(n, volume, LeafValues::left_packed, 0);
       volume = reader->volume();
       refused = is_empty(*reader) ? "empty" : "";
     }

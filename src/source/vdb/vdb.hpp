@@ -18,11 +18,12 @@ struct VdbSource {
   std::vector<std::string> other_grids;  ///< scalar grids that were not chosen
 };
 
-/// Loads one grid: `options.grid`, else the first scalar one.
+/// Loads one grid: `options.grid`, else the first scalar one; its values, where they are too many
+/// for `options.memory_bytes`, by and by.
 /// Errors   input: damaged, no such grid, nothing scalar, a frustum, an empty grid; limit: memory.
-VdbSource open_vdb(const MappedFile& file, const SourceOptions& options);
+VdbSource open_vdb(MappedFile file, const SourceOptions& options);
 
 /// Lists all grids in file order. Trees are read only where the file does not say their extent.
-std::vector<GridDescription> describe_vdb(const MappedFile& file);
+std::vector<GridDescription> describe_vdb(MappedFile file);
 
 }  // namespace mc::source

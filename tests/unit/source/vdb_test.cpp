@@ -7,9 +7,11 @@
 #include <openvdb/openvdb.h>
 #include <openvdb/points/PointDataGrid.h>
 
+#include <atomic>
 #include <map>
 #include <random>
 #include <sstream>
+#include <thread>
 
 #include "support/source_files.hpp"
 #include "support/vdb_grids.hpp"
@@ -81,6 +83,13 @@ int differences(const LeafReader& reader, const GridT& grid, const Index3& lo, c
   return n;
 }
 
+/// Leaves stay in their file then.
+const SourceOptions kLittleMemory = [] {
+  SourceOptions options;
+  options.memory_bytes = 1;
+  return options;
+}();
+
 template <class GridT>
 void expect_round_trip(SampleType type, typename GridT::ValueType background) {
   openvdb::initialize();
@@ -89,6 +98,8 @@ void expect_round_trip(SampleType type, typename GridT::ValueType background) {
   grid->setName("n");
   test::write_grids(folder.path("n.vdb"), {grid});
   const Source source = open({folder.path("n.vdb")});
+  const Source packed = open({folder.path("n.vdb")}, kLittleMemory);
+  EXPECT_EQ(differences(leaves(packed), *grid, {-42, -14, -14}, {19, 19, 19}), 0);
   const LeafReader& reader = leaves(source);
   EXPECT_EQ(reader.volume().type, type);
   EXPECT_EQ(reader.volume().n_active, grid->activeVoxelCount());
@@ -168,6 +179,8 @@ TEST(Vdb, EveryCompressionAndKindOfLeaf) {
         const std::string message = std::to_string(flags) + (as_half ? " half" : "");
         EXPECT_EQ(differences(leaves(source), *expected, {-33, 7, -9}, {65, 16, 0}), 0) << message;
         EXPECT_EQ(leaves(source).tiles().size(), 2U) << message;
+        const Source packed = open({folder.path("c.vdb")}, kLittleMemory);
+        EXPECT_EQ(differences(leaves(packed), *expected, {-33, 7, -9}, {65, 16, 0}), 0) << message;
       }
     }
   }
@@ -186,6 +199,64 @@ TEST(Vdb, MasksAreTheirActiveSamples) {
   EXPECT_EQ(volume_of(source.reader).cls, VolumeClass::mask);
   EXPECT_EQ(volume_of(source.reader).n_active, 514U);
   EXPECT_EQ(differences(leaves(source), *grid, {-10, -10, -10}, {8, 8, 8}), 0);
+}
+
+TEST(Vdb, LeavesThatAreTooManyStayInTheFile) {
+  openvdb::initialize();
+  const Folder folder;
+  for (const std::uint32_t compression :
+       {openvdb::io::COMPRESS_NONE, openvdb::io::COMPRESS_BLOSC}) {
+    openvdb::io::File file(folder.path("n.vdb"));
+    file.setCompression(compression);
+    file.write({test::noise_grid<openvdb::FloatGrid>(3)});
+    SourceOptions options;
+    const Source whole = open({folder.path("n.vdb")}, options);
+    const std::size_t n = leaves(whole).leaves().size();
+    const std::uint64_t values = n * 2048;
+    ASSERT_GT(leaves(whole).held_bytes(), values);
+    const std::uint64_t tree = leaves(whole).held_bytes() - values;
+    options.memory_bytes = 2 * (tree + values);
+    EXPECT_EQ(leaves(open({folder.path("n.vdb")}, options)).held_bytes(), tree + values);
+    options.memory_bytes -= 2;
+    const Source packed = open({folder.path("n.vdb")}, options);
+    EXPECT_LT(leaves(packed).held_bytes(), tree + values / 2);
+    std::array<std::byte, 4096> first{}, again{};
+    for (std::size_t leaf = 0; leaf < n; ++leaf) {
+      const std::byte* expected = leaves(whole).leaf_values(leaf, first.data());
+      EXPECT_EQ(std::memcmp(leaves(packed).leaf_values(leaf, again.data()), expected, 2048), 0);
+    }
+  }
+}
+
+TEST(Vdb, LeavesInTheFileMayBeAskedForByAllThreads) {
+  openvdb::initialize();
+  const Folder folder;
+  auto grid = openvdb::FloatGrid::create(0);
+  for (int n = 0; n < 4000; ++n) {
+    grid->tree().setValueOn({8 * (n % 40), 8 * (n / 40), 0}, static_cast<float>(n));
+  }
+  test::write_grids(folder.path("n.vdb"), {grid});
+  SourceOptions options;
+  options.memory_bytes = 1 << 20;  // a cache of 64 leaves
+  const Source source = open({folder.path("n.vdb")}, options);
+  const LeafReader& reader = leaves(source);
+  std::atomic<int> n_wrong{0};
+  std::vector<std::jthread> threads;
+  for (int t = 0; t < 4; ++t) {
+    threads.emplace_back([&] {
+      std::array<std::byte, 2048> scratch{};
+      for (std::size_t n = 0; n < 2 * reader.leaves().size(); ++n) {
+        const std::size_t row_before = n % 2 == 0 || n < 80 ? 0 : 40;  // as neighbours are
+        const std::size_t leaf = n / 2 - row_before;
+        const Index3 at = reader.leaves()[leaf];
+        float value = 0;
+        std::memcpy(&value, reader.leaf_values(leaf, scratch.data()), sizeof value);
+        n_wrong += value == static_cast<float>(at[0] / 8 + 40 * (at[1] / 8)) ? 0 : 1;
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(n_wrong, 0);
 }
 
 TEST(Vdb, NumbersAreNotCopied) {
