@@ -302,28 +302,42 @@ def test_a_journal_survives_a_kill(mc):
     assert status == 3 and "differs from the one that was recorded" in err, (status, err)
 
 
-def test_memory_stays_flat(mc):
-    session = Session(mc, "--report", "-", "--undo", "16")
+def follow_for_long(mc, n_edits):
+    """Chunks down a pipe, undo full, an undo now and then: resident memory after 3/10 and at the end."""
+    session = Session(mc, *CHUNKS, "--undo", "16", "-q")
+    follower = Follower(session)
+    follower.record()
     held = 0
-    for n in range(2000):
+    for n in range(n_edits):
         op = "subtract" if n % 2 else "add"
-        session.ask(ball(op, [8 + n % 24, 8 + n * 7 % 24, 8 + n * 11 % 24], strength=1))
-        if n == 600:
+        edit = ball(op, [8 + n % 24, 8 + n * 7 % 24, 8 + n * 11 % 24], strength=1)
+        follower.ask({"op": "undo", "count": 3} if n % 50 == 49 else edit)
+        if n == n_edits * 3 // 10:
             held = session.anonymous_kib()
     grown = session.anonymous_kib() - held
     assert session.end()[0] == 0
-    assert grown < 1024, f"{grown} KiB more after 1400 edits"
+    return held, grown
+
+
+def test_memory_stays_flat(mc):
+    held, grown = follow_for_long(mc, 2000)
+    assert grown < 1024, f"{grown} KiB more than {held} KiB after 1400 edits"
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--mc", required=True)
-    mc = os.path.abspath(parser.parse_args().mc)
+    parser.add_argument("--edits", type=int, help="only: memory over so many edits, in minutes")
+    args = parser.parse_args()
+    mc = os.path.abspath(args.mc)
     tests = [test for name, test in globals().items() if name.startswith("test_")]
     with tempfile.TemporaryDirectory(prefix="mc-live-") as folder:
         os.chdir(folder)
         subprocess.run([sys.executable, str(HERE / "ball.py"), "ball.raw", "--n", "40", "--type",
                         "f32"], check=True)
+        if args.edits:
+            print("%d KiB, then %d more" % follow_for_long(mc, args.edits))
+            tests = []
         for test in tests:
             test(mc)
             print(test.__name__)
