@@ -11,6 +11,7 @@
 
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <bit>
 #include <limits>
 #include <type_traits>
@@ -78,70 +79,125 @@ template <class T, bool Swap, bool Gradients>
 class EdgeGatherer {
  public:
   EdgeGatherer(const PlaneSamples& planes, bool between, std::int32_t plane_bytes)
-      : planes_(planes), between_(between), load_(plane_bytes) {}
+      : planes_(planes),
+        between_(between),
+        all_((std::uint64_t{1} << hn::Lanes(Offsets())) - 1),
+        load_(plane_bytes) {}
 
   /// The samples around one vector of edges. Returns a bit for each that lies inside.
   std::uint64_t gather(const EdgePlaces& edges, std::size_t e, const EdgeSamples& out) const {
     const Offsets d;
+    const auto axis = hn::LoadU(d, edges.axis + e);
+    const Ends ends{hn::LoadU(d, edges.i + e), hn::LoadU(d, edges.j + e),
+                    hn::IfThenElseZero(hn::Eq(axis, hn::Zero(d)), hn::Set(d, 1)),
+                    hn::IfThenElseZero(hn::Eq(axis, hn::Set(d, 1)), hn::Set(d, 1))};
+    if constexpr (Gradients) {
+      if (gather_held<true>(ends, e, out) == all_) return all_;
+    }
+    return gather_held<false>(ends, e, out);
+  }
+
+ private:
+  struct Ends {
+    OffsetVector i, j;    ///< of the lower end
+    OffsetVector di, dj;  ///< to the upper end
+  };
+
+  /// Bytes from one sample to the next of its row, and from row to row; none where there is no
+  /// next.
+  struct Steps {
+    OffsetVector to_next_i, to_last_i, to_next_j, to_last_j;
+    FloatVector scale_i, scale_j;
+  };
+
+  /// All samples lie at least one from the border if `Inner`: where they do not, they are held
+  /// there and nothing else is done.
+  template <bool Inner>
+  std::uint64_t gather_held(const Ends& ends, std::size_t e, const EdgeSamples& out) const {
+    const Offsets d;
     const Floats f;
+    std::uint64_t inside = all_;
+    const auto i = held<Inner>(0, ends.i, ends.di, inside);
+    const auto j = held<Inner>(1, ends.j, ends.dj, inside);
+    if (Inner && inside != all_) return inside;
     const auto size = hn::Set(d, std::int32_t{sizeof(T)});
     const auto row = hn::Set(d, static_cast<std::int32_t>(planes_.row_bytes));
-    const auto axis = hn::LoadU(d, edges.axis + e);
-    const auto along_i = hn::Eq(axis, hn::Zero(d));
-    const auto along_j = hn::Eq(axis, hn::Set(d, 1));
-    std::uint64_t inside = ~std::uint64_t{0};
-    const auto i = clamped(0, hn::LoadU(d, edges.i + e), along_i, inside);
-    const auto j = clamped(1, hn::LoadU(d, edges.j + e), along_j, inside);
     const auto lower = hn::Add(hn::Mul(hn::Sub(j, hn::Set(d, planes_.first[1])), row),
                                hn::Mul(hn::Sub(i, hn::Set(d, planes_.first[0])), size));
-    const auto upper = hn::Add(
-        lower, hn::Add(hn::IfThenElseZero(along_i, size), hn::IfThenElseZero(along_j, row)));
+    const auto upper = hn::Add(lower, hn::Add(hn::Mul(ends.di, size), hn::Mul(ends.dj, row)));
     const std::byte* const upper_plane = between_ ? planes_.after : planes_.here;
     hn::StoreU(load_(planes_.here, lower), f, out.a + e);
     hn::StoreU(load_(upper_plane, upper), f, out.b + e);
     if constexpr (Gradients) {
       const std::byte* const upper_before = between_ ? planes_.here : planes_.before;
       const std::byte* const upper_after = between_ ? planes_.after_next : planes_.after;
-      gradient(planes_.before, planes_.here, planes_.after, lower, size, row, out.lower_gradient,
-               e);
-      gradient(upper_before, upper_plane, upper_after, upper, size, row, out.upper_gradient, e);
+      gradient(planes_.before, planes_.here, planes_.after, lower, steps<Inner>(i, j),
+               planes_.lower_scale, out.lower_gradient, e);
+      gradient(upper_before, upper_plane, upper_after, upper,
+               steps<Inner>(hn::Add(i, ends.di), hn::Add(j, ends.dj)), planes_.upper_scale,
+               out.upper_gradient, e);
     }
     return inside;
   }
 
- private:
-  static constexpr std::int32_t kRing = Gradients ? 1 : 0;
-
   /// Lower indices along one axis, held where all that is loaded lies in the planes; clears the
   /// bits in `inside` of those that had to be.
-  OffsetVector clamped(std::size_t a, OffsetVector index, hn::Mask<Offsets> along,
-                       std::uint64_t& inside) const {
+  template <bool Inner>
+  OffsetVector held(std::size_t a, OffsetVector index, OffsetVector step,
+                    std::uint64_t& inside) const {
+    constexpr std::int32_t kRing = Inner ? 1 : 0;
     const Offsets d;
-    const auto step = hn::IfThenElseZero(along, hn::Set(d, 1));
     const auto least = hn::Set(d, planes_.lo[a] + kRing);
     const auto most = hn::Sub(hn::Set(d, planes_.hi[a] - kRing), step);
-    const auto held = hn::Min(hn::Max(index, least), most);
+    const auto within = hn::Min(hn::Max(index, least), most);
     std::uint64_t same = 0;
-    hn::StoreMaskBits(d, hn::Eq(held, index), reinterpret_cast<std::uint8_t*>(&same));
+    hn::StoreMaskBits(d, hn::Eq(within, index), reinterpret_cast<std::uint8_t*>(&same));
     inside &= same;
-    return held;
+    return within;
+  }
+
+  template <bool Inner>
+  Steps steps(OffsetVector i, OffsetVector j) const {
+    const Offsets d;
+    const Floats f;
+    const auto size = hn::Set(d, std::int32_t{sizeof(T)});
+    const auto row = hn::Set(d, static_cast<std::int32_t>(planes_.row_bytes));
+    const auto half = hn::Set(f, 0.5F);
+    if constexpr (Inner) {
+      return {size, size, row, row, half, half};
+    } else {
+      const auto one = hn::Set(f, 1.0F);
+      const auto after_i = hn::Gt(i, hn::Set(d, planes_.lo[0]));
+      const auto after_j = hn::Gt(j, hn::Set(d, planes_.lo[1]));
+      const auto before_i = hn::Lt(i, hn::Set(d, planes_.hi[0]));
+      const auto before_j = hn::Lt(j, hn::Set(d, planes_.hi[1]));
+      const auto scale = [&](hn::Mask<Offsets> both) {
+        return hn::IfThenElse(hn::RebindMask(f, both), half, one);
+      };
+      return {hn::IfThenElseZero(before_i, size), hn::IfThenElseZero(after_i, size),
+              hn::IfThenElseZero(before_j, row),  hn::IfThenElseZero(after_j, row),
+              scale(hn::And(before_i, after_i)),  scale(hn::And(before_j, after_j))};
+    }
   }
 
   void gradient(const std::byte* before, const std::byte* here, const std::byte* after,
-                OffsetVector at, OffsetVector size, OffsetVector row,
-                const std::array<float*, 3>& out, std::size_t e) const {
+                OffsetVector at, const Steps& to, float scale_k, const std::array<float*, 3>& out,
+                std::size_t e) const {
     const Floats f;
-    const auto half = hn::Set(f, 0.5F);
-    const auto store = [&](std::size_t a, FloatVector next, FloatVector previous) {
-      hn::StoreU(hn::Mul(hn::Sub(next, previous), half), f, out[a] + e);
+    const auto store = [&](std::size_t a, FloatVector next, FloatVector previous,
+                           FloatVector scale) {
+      hn::StoreU(hn::Mul(hn::Sub(next, previous), scale), f, out[a] + e);
     };
-    store(0, load_(here, hn::Add(at, size)), load_(here, hn::Sub(at, size)));
-    store(1, load_(here, hn::Add(at, row)), load_(here, hn::Sub(at, row)));
-    store(2, load_(after, at), load_(before, at));
+    store(0, load_(here, hn::Add(at, to.to_next_i)), load_(here, hn::Sub(at, to.to_last_i)),
+          to.scale_i);
+    store(1, load_(here, hn::Add(at, to.to_next_j)), load_(here, hn::Sub(at, to.to_last_j)),
+          to.scale_j);
+    store(2, load_(after, at), load_(before, at), hn::Set(f, scale_k));
   }
 
   const PlaneSamples& planes_;
   bool between_;
+  std::uint64_t all_;  ///< a bit for each lane
   SampleLoader<T, Swap> load_;
 };
 
@@ -150,13 +206,12 @@ Gathered gather_typed(const PlaneSamples& planes, const EdgePlaces& edges, bool 
                       std::int32_t plane_bytes, const EdgeSamples& out) {
   const EdgeGatherer<T, Swap, Gradients> gatherer(planes, between, plane_bytes);
   const std::size_t lanes = hn::Lanes(Floats());
-  Gathered done;
-  for (; done.n + lanes <= edges.n; done.n += lanes) {
-    const std::uint64_t inside = gatherer.gather(edges, done.n, out);
-    for (std::uint64_t bad = ~inside & ((std::uint64_t{1} << lanes) - 1); bad != 0;
-         bad &= bad - 1) {
+  Gathered done{edges.n, 0};
+  for (std::size_t e = 0; e < edges.n; e += lanes) {
+    const std::uint64_t valid = (std::uint64_t{1} << std::min(lanes, edges.n - e)) - 1;
+    for (std::uint64_t bad = ~gatherer.gather(edges, e, out) & valid; bad != 0; bad &= bad - 1) {
       out.failed[done.n_failed++] =
-          static_cast<std::uint32_t>(done.n + static_cast<std::size_t>(std::countr_zero(bad)));
+          static_cast<std::uint32_t>(e + static_cast<std::size_t>(std::countr_zero(bad)));
     }
   }
   return done;

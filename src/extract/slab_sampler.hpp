@@ -55,16 +55,18 @@ class SlabGatherer {
         with_gradients_(with_gradients) {}
 
   /// All edges start in plane k and, unless `capped`, lie in the box. Of those that lead out of it
-  /// the samples are zero.
+  /// the samples are zero. The batch's places are padded; pads its samples.
   void gather(EdgeBatch<R>& batch, std::int32_t k, bool capped) const {
     const Gathered done = gather_at_once(batch, k);
-    for (std::size_t f = 0; f < done.n_failed; ++f) gather_one(batch, batch.failed[f]);
+    for (std::size_t f = 0; f < done.n_failed; ++f) clear(batch, batch.failed[f]);
+    if (done.n != 0) return;
     if (capped) {
-      for (std::size_t e = done.n; e < batch.n; ++e) gather_one(batch, e);
+      for (std::size_t e = 0; e < batch.n; ++e) gather_one(batch, e);
     } else {
-      gather_values(batch, k, done.n);
-      if (with_gradients_) gather_gradients(batch, k, done.n);
+      gather_values(batch, k);
+      if (with_gradients_) gather_gradients(batch, k);
     }
+    batch.pad_samples(with_gradients_);
   }
 
  private:
@@ -83,40 +85,48 @@ class SlabGatherer {
            static_cast<std::size_t>(i - slab_.i0) * sizeof(T);
   }
 
-  /// As many edges as gather_edges() takes, from the first on.
+  /// All edges, or none, as gather_edges() does.
   Gathered gather_at_once(EdgeBatch<R>& batch, std::int32_t k) const {
     if constexpr (std::is_same_v<R, float>) {
       const IndexBox& box = sampler_.box();
       const bool between = batch.axis[0] == 2;
-      const std::int32_t ring = with_gradients_ ? 1 : 0;
-      const std::int32_t last = k + (between ? 1 : 0);
-      if (k - ring < box.lo[2] || last + ring > box.hi[2]) return {};
+      const std::int32_t upper = k + (between ? 1 : 0);
+      if (k < box.lo[2] || upper > box.hi[2]) return {};
+      const auto nearest = [&](std::int32_t n) {
+        return plane(std::clamp(n, box.lo[2], box.hi[2]));
+      };
+      const auto scale = [&](std::int32_t n) {
+        return n > box.lo[2] && n < box.hi[2] ? 0.5F : 1.0F;
+      };
+      const bool wants_after = with_gradients_ || between;
       const PlaneSamples planes{.type = field::type_of<T>(),
                                 .swap = Swap,
-                                .before = with_gradients_ ? plane(k - 1) : nullptr,
+                                .before = with_gradients_ ? nearest(k - 1) : nullptr,
                                 .here = plane(k),
-                                .after = k < last + ring ? plane(k + 1) : nullptr,
-                                .after_next = k + 1 < last + ring ? plane(k + 2) : nullptr,
+                                .after = wants_after ? nearest(k + 1) : nullptr,
+                                .after_next = with_gradients_ && between ? nearest(k + 2) : nullptr,
+                                .lower_scale = scale(k),
+                                .upper_scale = scale(upper),
                                 .row_bytes = stride_,
                                 .first = {slab_.i0, slab_.j0},
                                 .lo = {box.lo[0], box.lo[1]},
                                 .hi = {box.hi[0], box.hi[1]}};
-      auto& lower = batch.lower_gradient;
-      auto& upper = batch.upper_gradient;
+      auto& below = batch.lower_gradient;
+      auto& above = batch.upper_gradient;
       const EdgePlaces edges{batch.i.data(), batch.j.data(), batch.k.data(), batch.axis.data(),
                              batch.n};
       return gather_edges(planes, edges, between, with_gradients_,
                           {.a = batch.a.data(),
                            .b = batch.b.data(),
-                           .lower_gradient = {lower[0].data(), lower[1].data(), lower[2].data()},
-                           .upper_gradient = {upper[0].data(), upper[1].data(), upper[2].data()},
+                           .lower_gradient = {below[0].data(), below[1].data(), below[2].data()},
+                           .upper_gradient = {above[0].data(), above[1].data(), above[2].data()},
                            .failed = batch.failed.data()});
     } else {
       return {};
     }
   }
 
-  void gather_values(EdgeBatch<R>& batch, std::int32_t k, std::size_t first) const {
+  void gather_values(EdgeBatch<R>& batch, std::int32_t k) const {
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
     const std::int32_t* const axis = batch.axis.data();
     R *const a = batch.a.data(), *const b = batch.b.data();
@@ -124,7 +134,7 @@ class SlabGatherer {
     const bool between = axis[0] == 2;
     const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_),
                                         between ? plane(k + 1) - lower : 0};
-    for (std::size_t e = first; e < batch.n; ++e) {
+    for (std::size_t e = 0; e < batch.n; ++e) {
       const std::byte* const at = lower + offset(i[e], j[e]);
       a[e] = load(at);
       b[e] = load(at + to_upper[axis[e]]);
@@ -160,11 +170,11 @@ class SlabGatherer {
     }
   }
 
-  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k, std::size_t first) const {
+  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k) const {
     const IndexBox& box = sampler_.box();
     const bool between = batch.axis[0] == 2;
     if (k <= box.lo[2] || k + (between ? 1 : 0) >= box.hi[2]) {
-      for (std::size_t e = first; e < batch.n; ++e) gather_gradients_of(batch, e);
+      for (std::size_t e = 0; e < batch.n; ++e) gather_gradients_of(batch, e);
       return;
     }
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
@@ -185,7 +195,7 @@ class SlabGatherer {
     };
     const std::uint32_t inner_i = inner(box.extent(0));
     const std::uint32_t inner_j = inner(box.extent(1));
-    for (std::size_t e = first; e < batch.n; ++e) {
+    for (std::size_t e = 0; e < batch.n; ++e) {
       if (static_cast<std::uint32_t>(i[e] - box.lo[0] - 1) >= inner_i ||
           static_cast<std::uint32_t>(j[e] - box.lo[1] - 1) >= inner_j) {
         gather_gradients_of(batch, e);

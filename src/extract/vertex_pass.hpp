@@ -60,8 +60,9 @@ class VertexPass {
     full_ = full_ || !room_.make_for_vertices(batch_.n + kEdgesAtOnce);
     if (full_) return;
     std::fill_n(batch_.k.begin(), batch_.n, k);
+    batch_.pad_places();
     gatherer_.gather(batch_, k, rules_.capped);
-    writer_.flush();
+    writer_.flush_padded();
   }
 
   EdgeList list;

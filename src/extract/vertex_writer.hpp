@@ -41,17 +41,20 @@ struct EdgeBatch {
     }
   }
 
-  /// Repeats the last edge up to a whole vector.
-  void pad(bool with_gradients) {
-    const auto repeat = [this](auto& buffer) {
-      std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(n), kEdgesAtOnce, buffer[n - 1]);
-    };
+  /// Repeats the last edge up to a whole vector: where it is, and what is there.
+  void pad_places() {
     for (Buffer<std::int32_t>* buffer : {&i, &j, &k, &axis}) repeat(*buffer);
+  }
+  void pad_samples(bool with_gradients) {
     for (Buffer<R>* buffer : {&a, &b}) repeat(*buffer);
     if (with_gradients) {
       for (Buffer<R>& buffer : lower_gradient) repeat(buffer);
       for (Buffer<R>& buffer : upper_gradient) repeat(buffer);
     }
+  }
+  template <class V>
+  void repeat(Buffer<V>& buffer) const {
+    std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(n), kEdgesAtOnce, buffer[n - 1]);
   }
 
   [[nodiscard]] LatticeEdge edge(std::size_t e) const { return {{i[e], j[e], k[e]}, axis[e]}; }
@@ -120,11 +123,16 @@ class VertexWriter {
   /// Makes the vertices of the batch's edges. Of edges that lead out, a, b and gradients are zero.
   void flush() {
     if (batch_.n == 0) return;
-    batch_.pad(wants_gradients());
+    batch_.pad_places();
+    batch_.pad_samples(wants_gradients());
+    flush_padded();
+  }
+
+  /// The same of a batch that is filled up to a whole vector.
+  void flush_padded() {
     cut_edges(rules_.edge, batch_.a.data(), batch_.b.data(), batch_.n, batch_.t.data());
     if (rules_.capped) cut_outer_edges();
-    std::fill_n(batch_.t.begin() + static_cast<std::ptrdiff_t>(batch_.n), kEdgesAtOnce,
-                batch_.t[batch_.n - 1]);
+    batch_.repeat(batch_.t);
     if (f64_) {
       place(chunk_.positions_f64);
     } else {
