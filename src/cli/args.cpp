@@ -211,6 +211,7 @@ std::vector<Option> options_of(CheckArgs& a) {
 std::vector<Option> options_of(BenchArgs& a) {
   std::vector<Option> all{
       {"--json", "", "all figures as one JSON object", true, &a.json},
+      {"--noise", "", "noises instead, one thread on every SIMD target", true, &a.noise},
       {"--fields", "LIST", "of sphere, terrain, gyroid and noise (default: all)", true, &a.fields},
       {"--size", "N", "samples along each axis of the fields (default: 256)", true, &a.size},
       {"--type", "TYPE", "u8, i8, u16, i16, u32, i32, f16, f32 (default) or f64", true, &a.type,

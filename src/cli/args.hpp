@@ -75,7 +75,7 @@ struct CheckArgs {
 struct BenchArgs {
   CommonArgs common;
   Text fields, size, type, normals, threads, seconds;
-  bool json = false;
+  bool json = false, noise = false;
 };
 
 struct CompletionArgs {

@@ -6,6 +6,8 @@
 #include "base/parallel.hpp"
 #include "cli/bench_bandwidth.hpp"
 #include "cli/bench_field.hpp"
+#include "cli/bench_noise.hpp"
+#include "cli/bench_noise_report.hpp"
 #include "cli/bench_plan.hpp"
 #include "cli/bench_report.hpp"
 #include "cli/bench_surface.hpp"
@@ -87,6 +89,11 @@ void bench(const BenchPlan& plan) {
   if (plan.json) print_out(to_json(plan, bandwidths, demo, fields));
 }
 
+void bench_noise(const BenchPlan& plan) {
+  const std::vector<NoiseResult> results = measure_noises(plan.n_samples, plan.limits);
+  print_out(plan.json ? noises_json(plan, results) : noises_text(plan, results));
+}
+
 }  // namespace
 
 int run_bench(Invocation& invocation, std::vector<std::string> words) {
@@ -98,8 +105,8 @@ int run_bench(Invocation& invocation, std::vector<std::string> words) {
   }
   const BenchPlan plan = resolve(args);
   invocation.console.configure(resolve_common(args.common));
-  check_bench_memory(plan);
-  bench(plan);
+  if (!plan.noise) check_bench_memory(plan);  // a run keeps its own budget
+  plan.noise ? bench_noise(plan) : bench(plan);
   return 0;
 }
 

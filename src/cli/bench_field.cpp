@@ -54,12 +54,6 @@ GraphField sphere() {
       g.add({.type = NodeType::sphere, .numbers = {0, 0, 0, static_cast<float>(kSphereRadius)}}));
 }
 
-GraphField terrain() {
-  FieldGraph g(Convention::density);
-  const NodeId height = g.scaled(g.fractal(Dims::xz, 3, 6), 0.5);
-  return g.compile(g.op(NodeType::sub, {height, g.leaf(NodeType::y)}));
-}
-
 /// (sin x cos y + sin y cos z + sin z cos x) / 2, which stays within [-1, 1].
 GraphField gyroid(double periods) {
   FieldGraph g(Convention::density);
@@ -92,7 +86,7 @@ GraphField demo() {
 
 GraphField field_named(std::string_view name, double periods) {
   if (name == "sphere") return sphere();
-  if (name == "terrain") return terrain();
+  if (name == "terrain") return make_terrain_field(Dims::xz, 3);
   if (name == "gyroid") return gyroid(periods);
   assert(name == "noise");
   return noise();
@@ -151,6 +145,17 @@ BenchVolume make_bench_volume(std::string_view name, std::int32_t n, SampleType 
     fill<T>(field, -1, 2.0 / (n - 1), volume);
   });
   return volume;
+}
+
+GraphField make_fractal_field() {
+  FieldGraph g(Convention::density);
+  return g.compile(g.fractal(Dims::xyz, 1, 6));
+}
+
+GraphField make_terrain_field(Dims dims, double frequency) {
+  FieldGraph g(Convention::density);
+  const NodeId height = g.scaled(g.fractal(dims, frequency, 6), 0.5);
+  return g.compile(g.op(NodeType::sub, {height, g.leaf(NodeType::y)}));
 }
 
 BenchVolume make_demo_volume(std::int32_t n_cells) {

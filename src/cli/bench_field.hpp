@@ -8,6 +8,7 @@
 #include "cli/bench_array.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
+#include "mc/graph.hpp"
 
 // The volumes that `mc bench` extracts: cubes of samples over [-1, 1]^3, solid where positive, made
 // by the graph of mc-volume(5), so that they are the same bits on every machine.
@@ -38,5 +39,11 @@ BenchVolume make_bench_volume(std::string_view name, std::int32_t n, SampleType 
 
 /// The terrain of the demo (data/specs/demo-terrain.json), stretched over n_cells^3 cells.
 BenchVolume make_demo_volume(std::int32_t n_cells);
+
+/// Six octaves of Perlin's noise in three dimensions.
+GraphField make_fractal_field();
+/// Solid below y = 0 but for six octaves of noise of this frequency: hills, where `dims` does
+/// without y, or cliffs.
+GraphField make_terrain_field(Dims dims, double frequency);
 
 }  // namespace mc::cli

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <utility>
 
 #include "base/parallel.hpp"
 #include "cli/bench_bandwidth.hpp"
@@ -46,6 +47,19 @@ std::vector<int> threads_of(const BenchArgs& args) {
   return threads;
 }
 
+/// Noises are f32 without normals, on one thread.
+void refuse_beside_noise(const BenchArgs& args) {
+  if (!args.noise) return;
+  for (const auto& [option, given] : {std::pair{"--fields", args.fields.has_value()},
+                                      {"--type", args.type.has_value()},
+                                      {"--normals", args.normals.has_value()},
+                                      {"--threads", args.threads.has_value()}}) {
+    if (given) {
+      throw Error(ErrorKind::usage, option, "contradicts --noise", "give one of them");
+    }
+  }
+}
+
 /// What the kernel would give without swapping; where it does not say, what is installed.
 double free_bytes() {
   std::ifstream file("/proc/meminfo");
@@ -62,6 +76,7 @@ double free_bytes() {
 }  // namespace
 
 BenchPlan resolve(const BenchArgs& args) {
+  refuse_beside_noise(args);
   BenchPlan plan;
   plan.fields = fields_of(args);
   if (args.size) {
@@ -72,6 +87,7 @@ BenchPlan resolve(const BenchArgs& args) {
   plan.threads = threads_of(args);
   if (args.seconds) plan.limits.seconds = parse_number_within("--seconds", *args.seconds, 0, 3600);
   plan.json = args.json;
+  plan.noise = args.noise;
   return plan;
 }
 

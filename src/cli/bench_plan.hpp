@@ -21,6 +21,7 @@ struct BenchPlan {
   std::vector<int> threads;  ///< each at least 1
   RoundLimits limits;
   bool json = false;
+  bool noise = false;  ///< noises, not fields; n_samples is then their terrains' longest axis
 };
 
 /// Errors   usage.

@@ -11,11 +11,8 @@
 
 namespace mc::cli {
 
-namespace {
-
 using Json = nlohmann::ordered_json;
 
-/// The processor, as /proc/cpuinfo names it.
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
@@ -26,6 +23,20 @@ std::string processor_name() {
   }
   return "unknown processor";
 }
+
+std::string three_digits(double value) {
+  const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+Json json_of(const Timing& t) {
+  return {{"ms", t.median * 1e3},
+          {"least_ms", t.least * 1e3},
+          {"spread_ms", t.spread * 1e3},
+          {"rounds", t.n_rounds}};
+}
+
+namespace {
 
 const char* normals_name(Normals normals) {
   switch (normals) {
@@ -39,12 +50,6 @@ const char* normals_name(Normals normals) {
   __builtin_unreachable();
 }
 
-/// Three digits, or all before the point: "4.77", "83.1", "1870".
-std::string three_digits(double value) {
-  const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
-  return fmt::format("{:.{}f}", value, decimals);
-}
-
 std::string time_text(double seconds) {
   const bool small = seconds < 0.9995e-3;
   return three_digits(seconds * (small ? 1e6 : 1e3)) + (small ? " us" : " ms");
@@ -56,13 +61,6 @@ std::string spread_text(const Timing& t) {
 
 double gigabytes_a_second(const Bandwidth& b, const Timing& t) {
   return static_cast<double>(b.n_bytes) / t.median / 1e9;
-}
-
-Json json_of(const Timing& t) {
-  return {{"ms", t.median * 1e3},
-          {"least_ms", t.least * 1e3},
-          {"spread_ms", t.spread * 1e3},
-          {"rounds", t.n_rounds}};
 }
 
 Json json_of(const Bandwidth& b) {

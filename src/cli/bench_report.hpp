@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ struct FieldResult {
     return static_cast<double>(sample_bytes + mesh_bytes) / read_bandwidth / extract.median;
   }
 };
+
+/// The processor, as /proc/cpuinfo names it.
+std::string processor_name();
+/// Three digits, or all before the point: "4.77", "83.1", "1870".
+std::string three_digits(double value);
+nlohmann::ordered_json json_of(const Timing& timing);
 
 /// Machine, program and method: what a figure is worth nothing without.
 std::string bench_head_text(const BenchPlan& plan);

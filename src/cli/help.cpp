@@ -65,7 +65,8 @@ constexpr std::array<Page, 7> kPages{{
      "mesh is checked before it is timed. Needs no files.\n",
      "  mc bench\n"
      "  mc bench --size 512 --fields gyroid,noise --normals gradient\n"
-     "  mc bench --type u8 --threads 1,2,4 --json\n"},
+     "  mc bench --type u8 --threads 1,2,4 --json\n"
+     "  mc bench --noise\n"},
     {"completion", "mc completion SHELL [NAME]", "what bash, zsh or fish complete",
      "Prints a script that lets a shell complete commands, options and their values. NAME is\n"
      "the program's, where it is installed by another than mc.\n",

@@ -21,6 +21,20 @@ assert all(d["time"]["rounds"] >= 10 and d["time"]["ms"] > 0 for d in b["demo"])
 assert f["bw"] > 0 and f["times_read"] > 0 and f["read"]["rounds"] >= 10
 assert b["memory"][0]["read"] == max(b["memory"][0]["read_one_stream"],
                                      b["memory"][0]["read_eight_streams"])'
+mc bench --noise --size 16 --seconds 0 > noise
+sed -n '2p;4s/  *.*/ N/p;5,$p' noise | sed -E 's/ +[0-9.]+/ N/g; s/( N)+$/ N/'
+mc bench --noise --size 16 --seconds 0 --json > json
+python3 -c '
+import json
+b = json.load(open("json"))
+first, last = b["noises"][0], b["noises"][-1]
+print(b["size"], sorted(first), sorted(last), last["simd"])
+names = [n["noise"] for n in b["noises"] if n["simd"] == "scalar"]
+print(names, len(b["noises"]) % len(names))
+# A core does between 0.3 and 8 GHz, and makes no value of these in less than a cycle.
+assert all(3e8 < n["hz"] < 8e9 and 0 < n["points_per_second"] < n["hz"] for n in b["noises"])'
+mc bench --noise --threads 2
+mc bench --noise --fields sphere
 mc bench --size 30000 2>&1 | sed 's/[0-9.]* GiB/N GiB/g'
 mc bench --size 7
 mc bench --fields sphere,cube
