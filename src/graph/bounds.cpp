@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "graph/bounds_data.hpp"
+#include "graph/bounds_noise.hpp"
 #include "graph/bounds_shape.hpp"
 #include "graph/float_math.hpp"
 #include "graph/interval_math.hpp"
-#include "graph/noise_range.hpp"
-#include "graph/rows.hpp"
 
 // One case for each operation. Whoever adds an operation and knows no bounds says kUnknown: it is
 // then sampled everywhere.
@@ -146,44 +145,6 @@ Interval smooth_least(Interval a, Interval b, float k) {
 
 Interval negative(Interval a) { return {-a.hi, -a.lo}; }
 
-/// Bounds of a noise of two or three coordinates: its range, or closer about the middle of a small
-/// box. `slope` bounds its steepness: the largest sum over the corners of a cell of what each gives
-/// with its worst gradient, in the worst direction, found on a grid of 1/200 (three dimensions:
-/// 1/40) cell and rounded up by two hundredths. Value noises: the root of the axes' number times
-/// the steepest blend along one; the sums of opensimplex2 were taken of lengths, whatever the
-/// direction. Distances to points: as steep as the metric, their difference twice.
-Interval noise(const Instruction& instruction, const Interval (&at)[3], float slope) {
-  using Places = std::array<float, kRowStep>;  // of which the first counts
-  const NoiseRange range = noise_range(instruction);
-  const float frequency = std::abs(instruction.p[0]);
-  std::array<Places, 3> middle{};
-  float square = 0;
-  float farthest = 0;
-  for (std::size_t axis = 0; axis < instruction.n_in; ++axis) {
-    const float m = 0.5F * at[axis].lo + 0.5F * at[axis].hi;
-    middle[axis].fill(m);
-    const float half = std::max(at[axis].hi - m, m - at[axis].lo) * frequency;
-    square += half * half;
-    farthest = std::max(farthest, size_of(at[axis]) * frequency);
-  }
-  // Coordinates are rounded before and after they are scaled.
-  const float reach = slope * (__builtin_sqrtf(square) + farthest * 0x1p-20F) + 1e-4F;
-  if (!(reach < 0.9F) || farthest > 0x1p20F) return between(range.lo, range.hi);
-  Places value{};
-  any_row(instruction, middle[0].data(), middle[1].data(), middle[2].data(), 1, value.data());
-  return between(std::max(range.lo, value[0] - reach), std::min(range.hi, value[0] + reach));
-}
-
-Interval cells(const Instruction& instruction, const Interval (&at)[3]) {
-  const auto what = static_cast<CellReturn>(instruction.p[2]);
-  if (what == CellReturn::value) {
-    const NoiseRange range = noise_range(instruction);
-    return between(range.lo, range.hi);
-  }
-  const bool manhattan = static_cast<CellMetric>(instruction.p[3]) == CellMetric::manhattan;
-  return noise(instruction, at, (manhattan ? 1.75F : 1.01F) * (what == CellReturn::f2_f1 ? 2 : 1));
-}
-
 Interval sphere(const Interval (&at)[3], const Instruction& instruction) {
   const auto& p = instruction.p;
   Interval squares = square(difference(at[0], {p[0], p[0]}));
@@ -316,35 +277,21 @@ Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interv
     case Op::smooth_max:
       return negative(smooth_least(negative(a), negative(b), p[0]));
     case Op::perlin2:
-      return noise(instruction, in, 3.2F);
     case Op::perlin3:
-      return noise(instruction, in, 3.7F);
     case Op::simplex2:
-      return noise(instruction, in, 7.5F);
     case Op::simplex3:
-      return noise(instruction, in, 7.1F);
     case Op::unity2:
-      return noise(instruction, in, 1.9F);
     case Op::open_simplex2:
-      return noise(instruction, in, 9.6F);
     case Op::open_simplex3:
-      return noise(instruction, in, 7.2F);
     case Op::value2:
-      return noise(instruction, in, 5.32F);
     case Op::value3:
-      return noise(instruction, in, 6.52F);
     case Op::value_cubic2:
-      return noise(instruction, in, 3.42F);
     case Op::value_cubic3:
-      return noise(instruction, in, 4.18F);
     case Op::cellular2:
     case Op::cellular3:
-      return cells(instruction, in);
     case Op::white2:
-    case Op::white3: {
-      const NoiseRange range = noise_range(instruction);
-      return between(range.lo, range.hi);
-    }
+    case Op::white3:
+      return noise_bounds(instruction, in);
     case Op::sphere:
       return sphere(in, instruction);
     case Op::box:

@@ -27,8 +27,8 @@ using WorldBox = std::array<Interval, 3>;
 /// Bounds of what an instruction makes of inputs within `a`, `b` and `c` (those it has), at places
 /// within `box`.
 /// Promise  they hold for the float32 numbers that the rows really give, on every target.
-/// Cost     some nanoseconds; of a noise that varies little over the box, one of its samples; of a
-///          volume up to 4096 of its samples.
+/// Cost     some nanoseconds; of a noise that varies little over the box, up to 32 of its samples;
+///          of a volume up to 4096.
 /// Source   Moore, "Interval analysis", 1966. Monotone steps are taken at the ends of the interval
 ///          with the same float operations: since rounding is monotone, that is exact. The others
 ///          are widened by more than they can be wrong.

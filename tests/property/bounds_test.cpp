@@ -69,7 +69,25 @@ void keep_all(graph::Program& program) {
 
 struct Tally {
   std::size_t n_known = 0, n_unknown = 0;
+  std::size_t n_moved = 0;  ///< noises at places that several coordinates make, told closely
 };
+
+/// Whether this is a noise in a warped or turned domain whose bounds are closer than its range.
+bool told_where_moved(const graph::Program& program, const graph::Instruction& noise,
+                      const Interval& bound) {
+  if (noise.op < graph::Op::perlin2 || noise.op > graph::Op::cellular3 || !bound.known()) {
+    return false;
+  }
+  const graph::NoiseRange range = graph::noise_range(noise);
+  const bool moved = std::any_of(noise.in.begin(), noise.in.begin() + noise.n_in, [&](auto value) {
+    while (program.code[value].op == graph::Op::scale ||
+           program.code[value].op == graph::Op::offset) {
+      value = program.code[value].in[0];
+    }
+    return program.code[value].op == graph::Op::accumulate;
+  });
+  return moved && bound.hi - bound.lo < 0.5F * (range.hi - range.lo);
+}
 
 void expect_inside(const graph::Program& program, const Block& block, std::mt19937& random,
                    Tally& tally) {
@@ -84,6 +102,7 @@ void expect_inside(const graph::Program& program, const Block& block, std::mt199
     for (const graph::Instruction& i : program.code) {
       const Interval bound = bounds[i.out];
       ++(bound.known() ? tally.n_known : tally.n_unknown);
+      tally.n_moved += told_where_moved(program, i, bound) ? 1 : 0;
       if (!bound.known()) continue;
       for (std::size_t n = 0; n < graph::kPiece; ++n) {
         const float v = machine.row(i.out)[n];
@@ -108,6 +127,45 @@ TEST(Bounds, HoldEverySampleOfRandomGraphs) {
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(tally.n_known, 2 * tally.n_unknown) << "bounds that know nothing hold everything";
+}
+
+/// A fractal of some noise, warped by another or turned.
+graph::Program moved_noise(std::mt19937& random, bool warps) {
+  std::uniform_real_distribution<float> part(-1, 1);
+  std::uniform_int_distribution<int> kind(static_cast<int>(NodeType::value),
+                                          static_cast<int>(NodeType::cellular));
+  Graph g({.seed = static_cast<std::uint32_t>(random())});
+  const auto noise = [&](float frequency) {
+    return g.add({.type = static_cast<NodeType>(kind(random)), .numbers = {frequency, 1}});
+  };
+  const NodeId sum = g.add({.type = NodeType::fbm,
+                            .inputs = {noise(std::exp2(part(random) - 2))},
+                            .numbers = {2, 0.5F},
+                            .octaves = 3});
+  Node node{.type = warps ? NodeType::warp : NodeType::affine, .inputs = {sum}};
+  if (warps) {
+    node.inputs.push_back(noise(std::exp2(part(random) - 4)));
+    node.numbers = {2 * part(random), 2, 0.5F};
+  } else {
+    for (int n = 0; n < 12; ++n) node.list.push_back(part(random));
+  }
+  return graph::compile(g, g.add(std::move(node)));
+}
+
+TEST(Bounds, HoldNoisesThatAreWarpedOrTurned) {
+  for (const bool warps : {false, true}) {
+    SCOPED_TRACE(warps ? "warped" : "turned");
+    Tally tally;
+    for (std::uint32_t seed = 0; seed < 400; ++seed) {
+      SCOPED_TRACE(testing::Message() << "seed " << seed);
+      std::mt19937 random(seed);
+      graph::Program program = moved_noise(random, warps);
+      keep_all(program);
+      for (int n = 0; n < 10; ++n) expect_inside(program, Block(random), random, tally);
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(tally.n_moved, 3 * 1200U) << "of 36,000 octaves";
+  }
 }
 
 /// Steepness is claimed for two points anywhere; cells far apart share gradients, so a few are
@@ -161,6 +219,48 @@ TEST(Bounds, NoisesAreNoSteeperThanClaimed) {
       expect_no_steeper(graph::Op::cellular3, steep, {1, 1, kind, metric});
     }
   }
+}
+
+/// Second differences along each axis, over steps that rounding does not spoil.
+void expect_no_more_bent(graph::Op op, double bend) {
+  using Piece = std::array<float, graph::kPiece>;
+  SCOPED_TRACE(testing::Message() << "operation " << static_cast<int>(op));
+  constexpr float kStep = 0x1p-5F;
+  const graph::Instruction noise{.op = op, .n_in = 3, .seed = 3, .p = {1}};
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> anywhere(-40, 40);
+  double most = 0;
+  for (int n = 0; n < 3000; ++n) {
+    std::array<Piece, 3> at;
+    for (Piece& piece : at) {
+      for (float& v : piece) v = anywhere(random);
+    }
+    Piece& axis = at[static_cast<std::size_t>(n % 2)];
+    std::array<Piece, 3> values;
+    for (Piece& value : values) {
+      graph::any_row(noise, &at[0][0], &at[1][0], &at[2][0], graph::kPiece, &value[0]);
+      for (float& v : axis) v += kStep;
+    }
+    for (std::size_t i = 0; i < graph::kPiece; ++i) {
+      const double second = double{values[0][i]} - 2 * double{values[1][i]} + values[2][i];
+      most = std::max(most, std::abs(second) / (double{kStep} * kStep));
+    }
+  }
+  EXPECT_LT(most, bend);
+  EXPECT_GT(most, bend * 0.4) << "a bound that loose is of no use";
+}
+
+TEST(Bounds, NoisesAreNoMoreBentThanClaimed) {
+  expect_no_more_bent(graph::Op::perlin2, 12);
+  expect_no_more_bent(graph::Op::perlin3, 12);
+  expect_no_more_bent(graph::Op::simplex2, 55);
+  expect_no_more_bent(graph::Op::simplex3, 42);
+  expect_no_more_bent(graph::Op::open_simplex2, 57);
+  expect_no_more_bent(graph::Op::open_simplex3, 51);
+  expect_no_more_bent(graph::Op::value2, 11.6);
+  expect_no_more_bent(graph::Op::value3, 11.6);
+  expect_no_more_bent(graph::Op::value_cubic2, 9.7);
+  expect_no_more_bent(graph::Op::value_cubic3, 9.7);
 }
 
 TEST(Bounds, TheGyroidIsNoSteeperThanClaimed) {
