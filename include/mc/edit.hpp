@@ -149,11 +149,12 @@ struct Edit {
   std::uint32_t iterations = 1;
   std::optional<FlattenPlane> plane{};  ///< unset: fitted to the surface under the brush
   std::shared_ptr<const GraphField> noise{};
-  std::shared_ptr<const SampledVolume> stamp{};  ///< its samples' own place is in to_index
-  double stamp_iso = 0;                          ///< what its values are compared with
-  bool stamp_above = true;                       ///< its solid side
-  bool stamp_carves = false;                     ///< taken away instead of put in
-  std::uint16_t material = 0;                    ///< paint
+  std::shared_ptr<const SampledVolume> stamp{};  ///< many edits may have it; to_index is not used
+  Affine stamp_to_index{};     ///< from the edits' space to the place among its samples
+  double stamp_iso = 0;        ///< what its values are compared with
+  bool stamp_above = true;     ///< its solid side
+  bool stamp_carves = false;   ///< taken away instead of put in
+  std::uint16_t material = 0;  ///< paint
 };
 
 /// What an edit did.

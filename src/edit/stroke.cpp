@@ -231,7 +231,7 @@ class Layout {
       for (std::size_t a = 0; a < 3; ++a) {
         moved_back.m[4 * a + 3] = -(piece.from[a] - edit_.shape.center[a]);
       }
-      at.to_stamp = edit_.stamp->to_index.after(moved_back.after(home));
+      at.to_stamp = edit_.stamp_to_index.after(moved_back.after(home));
       at.box = stamped_box(at, edit_.stamp->dims, within_);
     }
     if (out_.brush.form != Form::everywhere) {

@@ -206,7 +206,7 @@ void add_chunks() {
     add_dabs(c, Timed::undo, "/undo", 2000);
   }
   for (const std::int32_t n_cells : {8, 16, 32, 64, 128}) {
-    add_dabs({"Chunn_default", {512, 512, 512}, false, n_cells, kSmooth}, Timed::all,
+    add_dabs({"Chunk", {512, 512, 512}, false, n_cells, kSmooth}, Timed::all,
              std::string("/") + std::to_string(n_cells), 1000);
   }
 }

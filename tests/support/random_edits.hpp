@@ -159,8 +159,8 @@ class RandomEdits {
       stamp->samples.push_back(static_cast<float>(real(-1, 1) * range_.value));
     }
     const double scale = real(0.3, 1.2);
-    stamp->to_index = {{scale, 0.1, 0, -scale * range_.middle[0], 0, scale, 0,
-                        -scale * range_.middle[1], 0, 0, scale, -scale * range_.middle[2]}};
+    edit.stamp_to_index = {{scale, 0.1, 0, -scale * range_.middle[0], 0, scale, 0,
+                            -scale * range_.middle[1], 0, 0, scale, -scale * range_.middle[2]}};
     edit.stamp = std::move(stamp);
     edit.stamp_iso = real(-0.5, 0.5) * range_.value;
     edit.stamp_above = chance(0.5);

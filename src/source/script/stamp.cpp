@@ -14,7 +14,7 @@ namespace mc::source {
 
 namespace {
 
-constexpr double kMostEntry = 1e100;  // what SampledVolume takes
+constexpr double kMostEntry = 1e100;  // as of SampledVolume
 
 /// p -> m (p - from) + to.
 Affine moved(const Matrix3& m, const Vec3& from, const Vec3& to) {
@@ -74,13 +74,11 @@ void RecordReader::place_stamp(Edit& edit, ObjectReader& keys, const Affine& to_
       back[row][column] = turn.m[3 * column + row] / factor[row];
     }
   }
-  auto placed = std::make_shared<SampledVolume>(*edit.stamp);
-  placed->to_index = to_index.after(moved(back, to, pivot));
+  edit.stamp_to_index = to_index.after(moved(back, to, pivot));
   const auto is_small = [](double v) { return std::abs(v) <= kMostEntry; };
-  if (!std::ranges::all_of(placed->to_index.m, is_small)) {
-    return document_.fault(keys.value(), "is placed past all numbers: expected smaller ones");
+  if (!std::ranges::all_of(edit.stamp_to_index.m, is_small)) {
+    document_.fault(keys.value(), "is placed past all numbers: expected smaller ones");
   }
-  edit.stamp = std::move(placed);
 }
 
 }  // namespace mc::source

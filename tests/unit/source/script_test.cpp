@@ -131,7 +131,7 @@ TEST(Script, AStampLiesWhereItsPlaceSays) {
   ASSERT_TRUE(edit.stamp);
   // The pivot comes to lie at translate; a step along x of the stamp is now one along y, twice as
   // long.
-  const auto index_of = [&](const Vec3& p) { return edit.stamp->to_index(p); };
+  const auto index_of = [&](const Vec3& p) { return edit.stamp_to_index(p); };
   const Vec3 pivot = index_of({10, 20, 30});
   EXPECT_NEAR(pivot[0], (1 + 2.4) / 0.1, 1e-9);
   EXPECT_NEAR(pivot[1], 1.6 / 0.1, 1e-9);
@@ -139,6 +139,14 @@ TEST(Script, AStampLiesWhereItsPlaceSays) {
   const Vec3 along = index_of({10, 22, 30});
   EXPECT_NEAR(along[0] - pivot[0], 10, 1e-9);
   EXPECT_NEAR(along[1] - pivot[1], 0, 1e-9);
+}
+
+TEST(Script, StampsOfOneFileShareItsSamples) {
+  const std::string record = R"({"op":"stamp","file":")" +
+                             test::source_file("data/scripts/crater.json") + R"(","translate":[)";
+  const auto records = records_of(kHeader + record + "1,2,3]}\n" + record + "4,5,6]}\n");
+  EXPECT_EQ(records[0].edit.stamp, records[1].edit.stamp);
+  EXPECT_NE(records[0].edit.stamp_to_index({}), records[1].edit.stamp_to_index({}));
 }
 
 TEST(Script, ADocumentAndItsLinesMeanTheSame) {
