@@ -122,6 +122,8 @@ class GltfReader {
       const auto start = static_cast<std::size_t>(text.data() - input_.text().data());
       fault_at_line(input_, start + std::max<std::size_t>(error.byte, 1) - 1,
                     "invalid json: expected the json of a gltf");
+    } catch (const json::out_of_range&) {
+      throw Error(ErrorKind::input, input_.place, "invalid json: a number is past all doubles");
     }
     if (!root_.is_object()) {
       throw Error(ErrorKind::input, input_.place, "expected a json object, as a gltf is one");
