@@ -237,9 +237,10 @@ TEST(Script, OnlyAJournalMayEndTorn) {
                            "\n"
                            R"({"op":"fill","va)";
   EXPECT_EQ(faults_of(kHeader + torn).size(), 1U);
-  Script journal("j.jsonl", R"({"format":"mc-edits","version":1,"journal":true})"
-                            "\n" +
-                                torn);
+  const std::string text = R"({"format":"mc-edits","version":1,"journal":true})"
+                           "\n" +
+                           torn;
+  Script journal("j.jsonl", text);
   EXPECT_TRUE(journal.next());
   EXPECT_FALSE(journal.next());
   EXPECT_EQ(journal.torn(), "j.jsonl:3");
