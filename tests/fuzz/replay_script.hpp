@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "mc/base.hpp"
@@ -22,7 +23,7 @@ inline bool replay_script(std::string_view text) {
     }
   };
   attempt([&] {
-    source::Script script("fuzz.jsonl", text);
+    source::Script script("fuzz.jsonl", std::string(text));
     while (attempt([&] { return script.next().has_value(); })) {
     }
     return true;

@@ -64,6 +64,7 @@ struct Script::State {
   SpecNesting within;
   std::unique_ptr<Descriptor> descriptor;
   std::unique_ptr<MappedFile> file;
+  std::string own_text;  ///< of a script in memory
   std::unique_ptr<ScriptText> text;
   std::string head_text;  // what `root` was parsed from
   std::unique_ptr<JsonValue> root;
@@ -199,9 +200,10 @@ Script::Script(const std::string& path, const SpecNesting& within)
   s.open();
 }
 
-Script::Script(std::string place, std::string_view text) : state_(std::make_unique<State>()) {
+Script::Script(std::string place, std::string text) : state_(std::make_unique<State>()) {
   state_->place = std::move(place);
-  state_->text = text_in_memory(text);
+  state_->own_text = std::move(text);
+  state_->text = text_in_memory(state_->own_text);
   state_->open();
 }
 

@@ -59,8 +59,8 @@ class Script {
   /// `within` bounds the files that it names.
   /// Errors   usage: every fault of the header, or of the document; input: cannot be read.
   explicit Script(const std::string& path, const SpecNesting& within = {});
-  /// The same over a text in memory, which must outlive it; `place` is how messages name it.
-  Script(std::string place, std::string_view text);
+  /// The same over a text in memory; `place` is how messages name it.
+  Script(std::string place, std::string text);
   ~Script();
   Script(Script&& other) noexcept;
   Script& operator=(Script&& other) noexcept;
