@@ -29,6 +29,13 @@ def check_refused(faults, said, done, text):
                   and text in done.stderr, said, "says", done.stderr)
 
 
+def expect_refused(mc, faults, folder, words, said, text):
+    """A run for which there is no room: it says so, and leaves what was there."""
+    (folder.out / "old").write_bytes(b"old")
+    check_refused(faults, said, mc.run(folder, words), text)
+    faults.expect(folder.contents() == {"old": b"old"}, said, sorted(folder.contents()))
+
+
 def sizes(folder):
     """Bytes of all outputs together; of the largest."""
     every = [len(data) for data in folder.contents().values()]
@@ -48,11 +55,8 @@ def full_disk(mc, faults, folder, kinds):
             subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={n_pages * PAGE}", "none",
                             folder.out], check=True)
             try:
-                (folder.out / "old").write_bytes(b"old")
-                done = mc.run(folder, words)
-                said = f"{kind}, disk of {n_pages} pages"
-                check_refused(faults, said, done, "No space left on device")
-                faults.expect(folder.contents() == {"old": b"old"}, said, sorted(folder.contents()))
+                expect_refused(mc, faults, folder, words, f"{kind}, disk of {n_pages} pages",
+                               "No space left on device")
                 n_runs += 1
             finally:
                 subprocess.run(["umount", folder.out], check=True)
@@ -108,10 +112,8 @@ def quota_for(mc, faults, folder, kind):
             limit = int(part * total) + BTRFS_ITSELF
             tool("btrfs", "filesystem", "sync", folder.out)
             faults.expect(tool("btrfs", "qgroup", "limit", str(limit), folder.out), kind, "no limit")
-            done = mc.run(folder, words)
-            said = f"{kind}, {limit} of {total} bytes allowed"
-            check_refused(faults, said, done, "Disk quota exceeded")
-            faults.expect(folder.contents() == {"old": b"old"}, said, sorted(folder.contents()))
+            expect_refused(mc, faults, folder, words, f"{kind}, {limit} of {total} bytes allowed",
+                           "Disk quota exceeded")
             n_runs += 1
     finally:
         subprocess.run(["umount", folder.out], check=True)

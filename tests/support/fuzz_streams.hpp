@@ -12,6 +12,7 @@
 #include <string>
 
 #include "mc/source.hpp"
+#include "support/fuzz_volumes.hpp"
 
 // What the fuzzer of piped inputs runs, shared with the tests that replay the corpus.
 
@@ -68,10 +69,7 @@ inline bool stream_and_read(std::span<const std::byte> bytes) {
       if (auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&source.reader)) pass_by(**dense);
       return true;
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::usage && error.kind() != ErrorKind::input &&
-          error.kind() != ErrorKind::limit) {
-        throw;
-      }
+      if (!is_refusal(error)) throw;
       return false;
     }
   };

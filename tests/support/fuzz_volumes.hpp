@@ -71,6 +71,12 @@ inline void read_all(const LeafReader& reader) {
   }
 }
 
+/// What a reader may say of any bytes. Everything else is a finding.
+inline bool is_refusal(const Error& error) {
+  return error.kind() == ErrorKind::usage || error.kind() == ErrorKind::input ||
+         error.kind() == ErrorKind::limit;
+}
+
 /// Opens the bytes as an input of kind `from` ("nrrd", "vdb", "raw") and reads all that a run would
 /// read of it. True: it was readable. Anything but an Error of kind usage, input or limit comes
 /// out.
@@ -85,10 +91,7 @@ inline bool open_and_read(const std::string& from, std::span<const std::byte> by
     std::visit([](const auto& reader) { read_all(*reader); }, source.reader);
     return true;
   } catch (const Error& error) {
-    if (error.kind() != ErrorKind::usage && error.kind() != ErrorKind::input &&
-        error.kind() != ErrorKind::limit) {
-      throw;
-    }
+    if (!is_refusal(error)) throw;
     return false;
   }
 }

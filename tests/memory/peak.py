@@ -18,8 +18,9 @@ import sys
 import tempfile
 import time
 
+from budget import MIB, anonymous_bytes
+
 DATA = pathlib.Path(__file__).resolve().parent.parent.parent / "data"
-MIB = 1 << 20
 DIMS = (1024, 1024, 8)
 CLOUDS = {"format": "mc-volume", "version": 1, "convention": "density", "iso": 0.2,
           "grid": {"cells": [319] * 3, "spacing": 1},
@@ -27,24 +28,12 @@ CLOUDS = {"format": "mc-volume", "version": 1, "convention": "density", "iso": 0
 NOISE = ["--dims", ",".join(map(str, DIMS)), "--type", "u8", "--iso", "128"]
 
 
-def anonymous_bytes(pid):
-    """Now; 0 where the process has ended."""
-    try:
-        status = pathlib.Path(f"/proc/{pid}/status").read_text(encoding="ascii")
-    except OSError:
-        return 0
-    for line in status.splitlines():
-        if line.startswith("RssAnon:"):
-            return int(line.split()[1]) * 1024
-    return 0
-
-
 def peak(words, stdin=subprocess.DEVNULL):
     """Greatest anonymous memory of a run that must succeed."""
     run = subprocess.Popen(words, stdin=stdin, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     most = 0
     while run.poll() is None:
-        most = max(most, anonymous_bytes(run.pid))
+        most = max(most, anonymous_bytes(run.pid, words[0]))
         time.sleep(0.001)
     assert run.returncode == 0, (words, run.stderr.read())
     return most
