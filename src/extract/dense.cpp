@@ -119,6 +119,7 @@ std::uint32_t DenseExtractor::make_layer(const Slab& slab, std::int32_t layer, s
   grid_.classifier.take_columns(bits(layer + 1));
   next = owns(layer + 1, l1) ? write_plane_of(layer + 1, next, pass)
                              : number_plane(view(layer + 1), next, bits(layer + 1).ids());
+  pass.flush();
   if (!pass.full()) emit_layer(layer, room, pass);
   return next;
 }

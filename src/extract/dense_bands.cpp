@@ -177,6 +177,7 @@ void DenseBands::make_typed(const Band& band, bool is_first, Maker& maker, mesh:
     write_plane(view(plane), grid_.classifier.first_of(plane)[2], band.first, band.last, 0, ids,
                 pass);
   }
+  pass.flush();
   if (!is_first) return;
   totals.n_boundary_edges = grid_.border_sides(bits(layer_), bits(layer_ + 1), layer_);
   if (grid_.options.measure) {

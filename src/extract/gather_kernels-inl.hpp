@@ -26,16 +26,19 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET <= HWY_AVX2
 
-using Floats = hn::CappedTag<float, kEdgesAtOnce>;
-using FloatVector = hn::Vec<Floats>;
-using Offsets = hn::Rebind<std::int32_t, Floats>;
-using OffsetVector = hn::Vec<Offsets>;
+/// Vectors of edges are whole ones, but for the last few edges: a gather costs what its lanes cost.
+using WholeVector = hn::CappedTag<float, kEdgesAtOnce>;
+using HalfVector = hn::Half<WholeVector>;
 
 /// Loads samples at byte offsets from a plane. Four bytes are read for each, which for narrower
 /// types end with the plane at the latest.
-template <class T, bool Swap>
+template <class T, bool Swap, class Floats>
 class SampleLoader {
  public:
+  using Offsets = hn::Rebind<std::int32_t, Floats>;
+  using FloatVector = hn::Vec<Floats>;
+  using OffsetVector = hn::Vec<Offsets>;
+
   explicit SampleLoader(std::int32_t plane_bytes) : last_(plane_bytes - 4) {}
 
   FloatVector operator()(const std::byte* plane, OffsetVector offset) const {
@@ -75,14 +78,17 @@ class SampleLoader {
   std::int32_t last_;
 };
 
-template <class T, bool Swap, bool Gradients>
+template <class T, bool Swap, bool Gradients, class Floats>
 class EdgeGatherer {
  public:
+  using Loader = SampleLoader<T, Swap, Floats>;
+  using Offsets = typename Loader::Offsets;
+  using FloatVector = typename Loader::FloatVector;
+  using OffsetVector = typename Loader::OffsetVector;
+  static constexpr std::size_t kLanes = hn::MaxLanes(Floats());
+
   EdgeGatherer(const PlaneSamples& planes, bool between, std::int32_t plane_bytes)
-      : planes_(planes),
-        between_(between),
-        all_((std::uint64_t{1} << hn::Lanes(Offsets())) - 1),
-        load_(plane_bytes) {}
+      : planes_(planes), between_(between), load_(plane_bytes) {}
 
   /// The samples around one vector of edges. Returns a bit for each that lies inside.
   std::uint64_t gather(const EdgePlaces& edges, std::size_t e, const EdgeSamples& out) const {
@@ -92,12 +98,14 @@ class EdgeGatherer {
                     hn::IfThenElseZero(hn::Eq(axis, hn::Zero(d)), hn::Set(d, 1)),
                     hn::IfThenElseZero(hn::Eq(axis, hn::Set(d, 1)), hn::Set(d, 1))};
     if constexpr (Gradients) {
-      if (gather_held<true>(ends, e, out) == all_) return all_;
+      if (gather_held<true>(ends, e, out) == kAll) return kAll;
     }
     return gather_held<false>(ends, e, out);
   }
 
  private:
+  static constexpr std::uint64_t kAll = (std::uint64_t{1} << kLanes) - 1;  ///< a bit for each lane
+
   struct Ends {
     OffsetVector i, j;    ///< of the lower end
     OffsetVector di, dj;  ///< to the upper end
@@ -116,10 +124,10 @@ class EdgeGatherer {
   std::uint64_t gather_held(const Ends& ends, std::size_t e, const EdgeSamples& out) const {
     const Offsets d;
     const Floats f;
-    std::uint64_t inside = all_;
+    std::uint64_t inside = kAll;
     const auto i = held<Inner>(0, ends.i, ends.di, inside);
     const auto j = held<Inner>(1, ends.j, ends.dj, inside);
-    if (Inner && inside != all_) return inside;
+    if (Inner && inside != kAll) return inside;
     const auto size = hn::Set(d, std::int32_t{sizeof(T)});
     const auto row = hn::Set(d, static_cast<std::int32_t>(planes_.row_bytes));
     const auto lower = hn::Add(hn::Mul(hn::Sub(j, hn::Set(d, planes_.first[1])), row),
@@ -197,23 +205,33 @@ class EdgeGatherer {
 
   const PlaneSamples& planes_;
   bool between_;
-  std::uint64_t all_;  ///< a bit for each lane
-  SampleLoader<T, Swap> load_;
+  Loader load_;
 };
+
+/// Edges from e on, at most one vector of them. Returns the edge after the last.
+template <class Gatherer>
+HWY_INLINE std::size_t gather_next(const Gatherer& gatherer, const EdgePlaces& edges, std::size_t e,
+                                   const EdgeSamples& out, std::size_t& n_failed) {
+  const std::size_t n = std::min(Gatherer::kLanes, edges.n - e);
+  const std::uint64_t valid = (std::uint64_t{1} << n) - 1;
+  for (std::uint64_t bad = ~gatherer.gather(edges, e, out) & valid; bad != 0; bad &= bad - 1) {
+    out.failed[n_failed++] =
+        static_cast<std::uint32_t>(e + static_cast<std::size_t>(std::countr_zero(bad)));
+  }
+  return e + n;
+}
 
 template <class T, bool Swap, bool Gradients>
 Gathered gather_typed(const PlaneSamples& planes, const EdgePlaces& edges, bool between,
                       std::int32_t plane_bytes, const EdgeSamples& out) {
-  const EdgeGatherer<T, Swap, Gradients> gatherer(planes, between, plane_bytes);
-  const std::size_t lanes = hn::Lanes(Floats());
+  using Whole = EdgeGatherer<T, Swap, Gradients, WholeVector>;
+  using Half = EdgeGatherer<T, Swap, Gradients, HalfVector>;
+  const Whole whole(planes, between, plane_bytes);
+  const Half half(planes, between, plane_bytes);
   Gathered done{edges.n, 0};
-  for (std::size_t e = 0; e < edges.n; e += lanes) {
-    const std::uint64_t valid = (std::uint64_t{1} << std::min(lanes, edges.n - e)) - 1;
-    for (std::uint64_t bad = ~gatherer.gather(edges, e, out) & valid; bad != 0; bad &= bad - 1) {
-      out.failed[done.n_failed++] =
-          static_cast<std::uint32_t>(e + static_cast<std::size_t>(std::countr_zero(bad)));
-    }
-  }
+  std::size_t e = 0;
+  while (edges.n - e > Half::kLanes) e = gather_next(whole, edges, e, out, done.n_failed);
+  if (e < edges.n) gather_next(half, edges, e, out, done.n_failed);
   return done;
 }
 

@@ -54,19 +54,18 @@ class SlabGatherer {
         vertices_(vertices),
         with_gradients_(with_gradients) {}
 
-  /// All edges start in plane k and, unless `capped`, lie in the box. Of those that lead out of it
-  /// the samples are zero. The batch's places are padded; pads its samples.
-  void gather(EdgeBatch<R>& batch, std::int32_t k, bool capped) const {
-    const Gathered done = gather_at_once(batch, k);
-    for (std::size_t f = 0; f < done.n_failed; ++f) clear(batch, batch.failed[f]);
+  /// Those of the batch's edges from `first` on: all start in plane k and, unless `capped`, lie in
+  /// the box. Of those that lead out of it the samples are zero. The batch's places are padded.
+  void gather(EdgeBatch<R>& batch, std::size_t first, std::int32_t k, bool capped) const {
+    const Gathered done = gather_at_once(batch, first, k);
+    for (std::size_t f = 0; f < done.n_failed; ++f) clear(batch, first + batch.failed[f]);
     if (done.n != 0) return;
     if (capped) {
-      for (std::size_t e = 0; e < batch.n; ++e) gather_one(batch, e);
+      for (std::size_t e = first; e < batch.n; ++e) gather_one(batch, e);
     } else {
-      gather_values(batch, k);
-      if (with_gradients_) gather_gradients(batch, k);
+      gather_values(batch, first, k);
+      if (with_gradients_) gather_gradients(batch, first, k);
     }
-    batch.pad_samples(with_gradients_);
   }
 
  private:
@@ -86,10 +85,10 @@ class SlabGatherer {
   }
 
   /// All edges, or none, as gather_edges() does.
-  Gathered gather_at_once(EdgeBatch<R>& batch, std::int32_t k) const {
+  Gathered gather_at_once(EdgeBatch<R>& batch, std::size_t first, std::int32_t k) const {
     if constexpr (std::is_same_v<R, float>) {
       const IndexBox& box = sampler_.box();
-      const bool between = batch.axis[0] == 2;
+      const bool between = batch.axis[first] == 2;
       const std::int32_t upper = k + (between ? 1 : 0);
       if (k < box.lo[2] || upper > box.hi[2]) return {};
       const auto nearest = [&](std::int32_t n) {
@@ -111,30 +110,34 @@ class SlabGatherer {
                                 .first = {slab_.i0, slab_.j0},
                                 .lo = {box.lo[0], box.lo[1]},
                                 .hi = {box.hi[0], box.hi[1]}};
-      auto& below = batch.lower_gradient;
-      auto& above = batch.upper_gradient;
-      const EdgePlaces edges{batch.i.data(), batch.j.data(), batch.k.data(), batch.axis.data(),
-                             batch.n};
+      const auto from = [first](auto& buffer) {
+        return buffer.empty() ? nullptr : buffer.data() + first;
+      };
+      const auto gradients = [&](auto& of) {
+        return std::array{from(of[0]), from(of[1]), from(of[2])};
+      };
+      const EdgePlaces edges{from(batch.i), from(batch.j), from(batch.k), from(batch.axis),
+                             batch.n - first};
       return gather_edges(planes, edges, between, with_gradients_,
-                          {.a = batch.a.data(),
-                           .b = batch.b.data(),
-                           .lower_gradient = {below[0].data(), below[1].data(), below[2].data()},
-                           .upper_gradient = {above[0].data(), above[1].data(), above[2].data()},
+                          {.a = from(batch.a),
+                           .b = from(batch.b),
+                           .lower_gradient = gradients(batch.lower_gradient),
+                           .upper_gradient = gradients(batch.upper_gradient),
                            .failed = batch.failed.data()});
     } else {
       return {};
     }
   }
 
-  void gather_values(EdgeBatch<R>& batch, std::int32_t k) const {
+  void gather_values(EdgeBatch<R>& batch, std::size_t first, std::int32_t k) const {
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
     const std::int32_t* const axis = batch.axis.data();
     R *const a = batch.a.data(), *const b = batch.b.data();
     const std::byte* const lower = plane(k);
-    const bool between = axis[0] == 2;
+    const bool between = axis[first] == 2;
     const std::ptrdiff_t to_upper[3] = {sizeof(T), static_cast<std::ptrdiff_t>(stride_),
                                         between ? plane(k + 1) - lower : 0};
-    for (std::size_t e = 0; e < batch.n; ++e) {
+    for (std::size_t e = first; e < batch.n; ++e) {
       const std::byte* const at = lower + offset(i[e], j[e]);
       a[e] = load(at);
       b[e] = load(at + to_upper[axis[e]]);
@@ -170,11 +173,11 @@ class SlabGatherer {
     }
   }
 
-  void gather_gradients(EdgeBatch<R>& batch, std::int32_t k) const {
+  void gather_gradients(EdgeBatch<R>& batch, std::size_t first, std::int32_t k) const {
     const IndexBox& box = sampler_.box();
-    const bool between = batch.axis[0] == 2;
+    const bool between = batch.axis[first] == 2;
     if (k <= box.lo[2] || k + (between ? 1 : 0) >= box.hi[2]) {
-      for (std::size_t e = 0; e < batch.n; ++e) gather_gradients_of(batch, e);
+      for (std::size_t e = first; e < batch.n; ++e) gather_gradients_of(batch, e);
       return;
     }
     const std::int32_t *const i = batch.i.data(), *const j = batch.j.data();
@@ -195,7 +198,7 @@ class SlabGatherer {
     };
     const std::uint32_t inner_i = inner(box.extent(0));
     const std::uint32_t inner_j = inner(box.extent(1));
-    for (std::size_t e = 0; e < batch.n; ++e) {
+    for (std::size_t e = first; e < batch.n; ++e) {
       if (static_cast<std::uint32_t>(i[e] - box.lo[0] - 1) >= inner_i ||
           static_cast<std::uint32_t>(j[e] - box.lo[1] - 1) >= inner_j) {
         gather_gradients_of(batch, e);

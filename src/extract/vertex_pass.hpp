@@ -40,34 +40,52 @@ class VertexPass {
         room_(room),
         writer_(rules_, sampler_, grid.options.precision, batch_, room.chunk(), bounds),
         gatherer_(slab, sampler_, vertices_, writer_.wants_gradients()) {
-    list.room = list_room(grid.classifier.row_samples()) + EdgeBatch<R>::kEnough;
-    batch_.reserve(list.room, writer_.wants_gradients());
+    batch_.reserve(list_room(grid.classifier.row_samples()) + EdgeBatch<R>::kEnough,
+                   writer_.wants_gradients());
     list.first = grid.classifier.first_of(0);
-    list.i = batch_.i.data();
-    list.j = batch_.j.data();
-    list.axis = batch_.axis.data();
+    list_behind();
   }
 
   [[nodiscard]] const EdgeVertices<T, Sampler>& vertices() const { return vertices_; }
   [[nodiscard]] bool full() const { return full_; }
   void set_full() { full_ = true; }
 
-  /// Makes the vertices of the edges that were listed, which start in plane k of the lattice. Makes
-  /// none once the chunk is full.
-  void make(std::int32_t k) {
-    batch_.n = list.n;
+  /// Takes the edges that were listed, which start in plane k of the lattice. Their vertices are
+  /// made when there are enough of them, or by flush(); none once the chunk is full.
+  void take(std::int32_t k) {
+    if (list.n == 0) return;
+    const std::size_t first = batch_.n;
+    batch_.n += list.n;
+    std::fill_n(batch_.k.begin() + static_cast<std::ptrdiff_t>(first), list.n, k);
+    batch_.pad_places();
+    gatherer_.gather(batch_, first, k, rules_.capped);
+    list_behind();
+    if (batch_.n >= EdgeBatch<R>::kEnough) flush();
+  }
+
+  /// Makes the vertices of all edges that were taken.
+  void flush() {
     if (batch_.n == 0) return;
     full_ = full_ || !room_.make_for_vertices(batch_.n + kEdgesAtOnce);
-    if (full_) return;
-    std::fill_n(batch_.k.begin(), batch_.n, k);
-    batch_.pad_places();
-    gatherer_.gather(batch_, k, rules_.capped);
-    writer_.flush_padded();
+    if (!full_) {
+      batch_.pad_samples(writer_.wants_gradients());
+      writer_.flush_padded();
+    }
+    batch_.n = 0;
+    list_behind();
   }
 
   EdgeList list;
 
  private:
+  /// Edges are listed behind those that wait. There are never so many that a row has no room.
+  void list_behind() {
+    list.room = batch_.room() - batch_.n;
+    list.i = batch_.i.data() + batch_.n;
+    list.j = batch_.j.data() + batch_.n;
+    list.axis = batch_.axis.data() + batch_.n;
+  }
+
   VertexRules<T> rules_;
   Sampler sampler_;
   EdgeVertices<T, Sampler> vertices_;
@@ -78,14 +96,14 @@ class VertexPass {
   bool full_ = false;
 };
 
-/// Makes the vertices on the edges of rows [j, j_end) of a plane, in the order of their ids, and
-/// numbers them from `next` on. Returns the id after the last.
+/// Takes the edges of rows [j, j_end) of a plane, in the order of their vertices' ids, and numbers
+/// them from `next` on. Returns the id after the last.
 template <class Pass>
 std::uint32_t write_plane(const BitPlane& plane, std::int32_t k, std::size_t j, std::size_t j_end,
                           std::uint32_t next, const PlaneIds& ids, Pass& pass) {
   while (j < j_end && !pass.full()) {
     j = list_plane(plane, j, j_end, next, ids, pass.list);
-    pass.make(k);
+    pass.take(k);
   }
   return next;
 }
@@ -97,7 +115,7 @@ std::uint32_t write_between(const BitPlane& lower, const BitPlane& upper, std::i
                             std::uint32_t* k_ids, Pass& pass) {
   while (j < j_end && !pass.full()) {
     j = list_between(lower, upper, j, j_end, next, k_ids, pass.list);
-    pass.make(k);
+    pass.take(k);
   }
   return next;
 }

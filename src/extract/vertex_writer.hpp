@@ -41,6 +41,9 @@ struct EdgeBatch {
     }
   }
 
+  /// Edges that there is room for.
+  [[nodiscard]] std::size_t room() const { return i.size() - kEdgesAtOnce; }
+
   /// Repeats the last edge up to a whole vector: where it is, and what is there.
   void pad_places() {
     for (Buffer<std::int32_t>* buffer : {&i, &j, &k, &axis}) repeat(*buffer);
