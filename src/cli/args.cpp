@@ -141,6 +141,8 @@ std::vector<Option> options_of(EditArgs& a) {
        &m.to},
       {"--emit", "WHAT", "chunks: hand out those parts of the mesh that each record changed", true,
        &a.emit, "chunks"},
+      {"--emit-at", "WHEN", "record (default), or write: only at write records and at the end",
+       false, &a.emit_at, "record write"},
       {"--chunk-dir", "DIR", "where chunks go, a GLB each (default: to stdout, framed by lines)",
        true, &a.chunk_dir},
       {"--chunk-cells", "N", "cells along a chunk's edge: 8, 16, 32 (default), 64, 128 or 256",

@@ -48,7 +48,7 @@ struct ExtractArgs {
 struct EditArgs {
   ExtractArgs mesh;  ///< input, surface and how it is written; its output is not used
   Texts outputs;
-  Text script, emit, chunk_dir, chunk_cells, journal, undo;
+  Text script, emit, emit_at, chunk_dir, chunk_cells, journal, undo;
   bool keep_going = false;
 };
 

@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/hash.hpp"
 #include "cli/facts.hpp"
 #include "cli/invocation.hpp"
 #include "cli/placement.hpp"
@@ -45,6 +46,18 @@ bool is_chunk_name(std::string_view name) {
     ++n_numbers;
   }
   return name.empty() && n_numbers == 3;
+}
+
+std::uint64_t hash_of(const MeshChunk& mesh) {
+  std::uint64_t h = 0;
+  const auto add = [&h](const auto& buffer) {
+    h = base::hash_on(base::hash_on(h, buffer.size()), std::as_bytes(std::span(buffer)));
+  };
+  add(mesh.positions);
+  add(mesh.normals);
+  add(mesh.materials);
+  add(mesh.indices);
+  return h;
 }
 
 SinkOptions glb_options(const EditPlan& plan, const Source& source, Border border) {
@@ -157,10 +170,14 @@ void ChunkEmitter::remove(const std::string& name) const {
 void ChunkEmitter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkChanges& changes) {
   const std::string name = plan_.chunk_dir ? name_of_chunk(chunk.id) : "";
   if (chunk.mesh.n_triangles() == 0) {
+    hashes_.erase(chunk.id);
     changes.removed.push_back(chunk.id);
     if (plan_.chunk_dir) remove(name);
     return;
   }
+  const std::uint64_t hash = hash_of(chunk.mesh);
+  const auto [held, is_new] = hashes_.try_emplace(chunk.id, hash);
+  if (!is_new && std::exchange(held->second, hash) == hash) return;
   n_materials_held_ += chunk.totals.n_materials_held;
   const std::uint64_t n_bytes = plan_.chunk_dir ? write_file(chunk, name) : send(chunk, record);
   changes.updated.push_back({chunk.id, name, n_bytes, chunk.mesh.n_vertices(),

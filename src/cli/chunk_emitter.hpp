@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -31,7 +32,7 @@ class ChunkEmitter {
 
   /// Every chunk that has a surface. Removes files of chunks that have none.
   ChunkChanges emit_all();
-  /// Those that samples in the boxes can have changed.
+  /// Those that changed with the samples in the boxes.
   ChunkChanges emit_changes(std::span<const IndexBox> dirty, std::uint64_t record);
   /// Vertices whose material is no number of 16 bits, in all chunks so far.
   [[nodiscard]] std::uint64_t n_materials_held() const { return n_materials_held_; }
@@ -49,6 +50,7 @@ class ChunkEmitter {
   ChunkOptions options_;
   SinkOptions sink_;
   ChunkMesher mesher_;
+  std::map<Index3, std::uint64_t> hashes_;  // of the chunks that there are
   std::set<std::string> found_;  // files that another run left, until all chunks are there
   Buffer<std::byte> glb_;        // on its way to stdout
   std::uint64_t n_materials_held_ = 0;

@@ -63,10 +63,10 @@ std::string to_json(const RecordReport& report) {
     json["count"] = *report.count;
   } else if (report.output) {
     json["output"] = *report.output;
-  } else if (report.number != 0) {
+  } else if (!report.is_state) {
     add_effect(json, report.effect);
   }
-  if (report.number != 0) {
+  if (!report.is_state) {
     json["touched"] = box_json(report.effect.touched);
     json["bounds"] = bounds_json(report.bounds);
   }

@@ -16,7 +16,7 @@
 
 namespace mc::cli {
 
-/// A chunk of the surface that is new or was made again.
+/// A chunk of the surface that is new or other than before.
 struct ChunkUpdate {
   Index3 id{};
   std::string file;  ///< in the folder; empty where it was sent to stdout
@@ -35,6 +35,7 @@ struct ChunkChanges {
 struct RecordReport {
   std::uint64_t number = 0;
   std::string op;
+  bool is_state = false;                ///< no record: the chunks at the start, or at the end
   EditEffect effect{};                  ///< of a group, its edits' together
   Bounds bounds{};                      ///< of what was touched, in the script's space
   std::optional<std::size_t> count{};   ///< undo, redo: steps

@@ -176,8 +176,17 @@ void EditSession::begin() {
 void EditSession::begin_to_emit() {
   const auto began = Clock::now();
   emitter_ = std::make_unique<ChunkEmitter>(plan_, *source_, *store_);
-  RecordReport report{.number = 0, .op = "open"};
+  RecordReport report{.op = "open", .is_state = true};
   report.chunks = emitter_->emit_all();
+  report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
+  tell(to_json(report));
+}
+
+/// What changed since the last write.
+void EditSession::end_to_emit() {
+  const auto began = Clock::now();
+  RecordReport report{.number = last_number_, .op = "end", .is_state = true};
+  report.chunks = emitter_->emit_changes(store_->take_dirty(), report.number);
   report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
   tell(to_json(report));
 }
@@ -203,6 +212,7 @@ void EditSession::follow_script() {
   while (const auto record = next_record()) {
     if (invocation_.stop.stop_requested()) throw Cancelled();
     do_record(*record);
+    last_number_ = record->number;
     ++totals_.n_records;
   }
   if (!script_.torn().empty()) {
@@ -231,8 +241,9 @@ void EditSession::do_record(const source::ScriptRecord& record) {
     note_in_journal(record, 1);
   }
   check_hash(record, record.after, "after");
-  const std::vector<IndexBox> dirty = store_->take_dirty();
-  if (emitter_) report.chunks = emitter_->emit_changes(dirty, record.number);
+  if (emitter_ && (!plan_.emits_at_writes || record.kind == source::RecordKind::write)) {
+    report.chunks = emitter_->emit_changes(store_->take_dirty(), record.number);
+  }
   if (!is_heard()) return;
   report.bounds = bounds_of(report.effect.touched);
   report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
@@ -374,6 +385,7 @@ int EditSession::run() {
   }
   begin();
   follow_script();
+  if (plan_.emits_at_writes) end_to_emit();
   note_materials();
   for (EditOutput& output : plan_.outputs) write_output(std::move(output));
   return status_;

@@ -46,6 +46,7 @@ class EditSession {
   void describe();
   void begin();
   void begin_to_emit();
+  void end_to_emit();
   void note_materials() const;
   void follow_script();
   std::optional<source::ScriptRecord> next_record();
@@ -76,7 +77,8 @@ class EditSession {
   std::set<std::string> written_;   // their names
   bool may_undo_ = true;
   std::uint64_t n_writes_ = 0;
-  std::uint64_t hash_ = 0;  // of the store, where a journal is kept
+  std::uint64_t last_number_ = 0;  // of the records done
+  std::uint64_t hash_ = 0;         // of the store, where a journal is kept
   int status_ = 0;
   EditTotals totals_;
 };

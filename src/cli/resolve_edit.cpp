@@ -71,10 +71,14 @@ void resolve_emit(const EditArgs& args, EditPlan& plan) {
   static constexpr std::array<std::pair<std::string_view, bool>, 1> kWhat{{{"chunks", true}}};
   plan.emits = args.emit && parse_choice("--emit", *args.emit, kWhat);
   plan.chunk_dir = args.chunk_dir;
-  for (const auto& [option, given] : {std::pair{"--chunk-dir", args.chunk_dir.has_value()},
+  for (const auto& [option, given] : {std::pair{"--emit-at", args.emit_at.has_value()},
+                                      {"--chunk-dir", args.chunk_dir.has_value()},
                                       {"--chunk-cells", args.chunk_cells.has_value()}}) {
     if (given && !plan.emits) refuse(option, "is of the chunks that --emit chunks hands out");
   }
+  static constexpr std::array<std::pair<std::string_view, bool>, 2> kWhen{
+      {{"record", false}, {"write", true}}};
+  plan.emits_at_writes = args.emit_at && parse_choice("--emit-at", *args.emit_at, kWhen);
   if (plan.chunk_dir && plan.chunk_dir->empty())
     refuse("--chunk-dir", "the folder's name is empty");
   if (!args.chunk_cells) return;

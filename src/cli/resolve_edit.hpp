@@ -24,7 +24,8 @@ struct EditPlan {
   ExtractPlan surface;  ///< input, iso, side and border, and how chunks are meshed
   std::vector<EditOutput> outputs;
   std::string script;                    ///< "-" is stdin
-  bool emits = false;                    ///< chunks, after each record those that changed
+  bool emits = false;                    ///< chunks: first all, then those that changed
+  bool emits_at_writes = false;          ///< not after each record, but writes, and at the end
   std::optional<std::string> chunk_dir;  ///< where they go; unset: stdout
   std::int32_t chunk_cells = 32;
   std::optional<std::string> journal;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "edit/layer.hpp"
 
-#include <bit>
-#include <cstring>
 #include <utility>
+
+#include "base/hash.hpp"
 
 // A block's hash is of its place, samples and active bits; the sum of hashes does not depend on the
 // order of blocks.
@@ -12,21 +12,11 @@ namespace mc::edit {
 
 namespace {
 
-std::uint64_t mixed(std::uint64_t h, std::uint64_t word) {
-  h = (std::rotl(h, 23) ^ word) * 0x9E3779B97F4A7C15U;
-  return h ^ h >> 32U;
-}
-
 std::uint64_t hash_of(const Index3& at, const Block& block, std::size_t sample_bytes) {
   std::uint64_t h = BlockHash{}(at);
-  for (const std::uint64_t word : block.active) h = mixed(h, word);
-  const std::byte* samples = block.samples();
-  for (std::size_t n = 0; n < kBlockSamples * sample_bytes; n += sizeof(std::uint64_t)) {
-    std::uint64_t word;
-    std::memcpy(&word, samples + n, sizeof word);
-    h = mixed(h, word);
-  }
-  return mixed(h, 1);
+  for (const std::uint64_t word : block.active) h = base::hash_on(h, word);
+  h = base::hash_on(h, {block.samples(), kBlockSamples * sample_bytes});
+  return base::hash_on(h, 1);
 }
 
 }  // namespace

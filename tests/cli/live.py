@@ -210,6 +210,39 @@ def test_who_follows_has_the_surface(mc):
         assert parts == sorted(triangles_of(pathlib.Path("end.glb").read_bytes()))
 
 
+def test_what_stays_is_not_sent_again(mc):
+    follower = Follower(Session(mc, *CHUNKS))
+    follower.record()
+    line = follower.ask(ball("add", [20, 20, 20], radius=3, strength=1))
+    assert line["changed"] > 0 and line["chunks"] == line["removed"] == [], line
+    edit = ball("subtract", [20, 20, 29], radius=3, strength=200)
+    assert {tuple(c["id"]) for c in follower.ask(edit)["chunks"]} == {(1, 1, 1)}
+    assert follower.session.end()[0] == 0
+
+
+def test_chunks_can_wait_for_writes(mc):
+    at_once, waiting = Follower(Session(mc, *CHUNKS)), Follower(Session(mc, *CHUNKS, "--emit-at",
+                                                                        "write", "--force"))
+    at_once.record()
+    waiting.record()
+    edits = [edit for edit in FOLLOWED if edit["op"] not in ("undo", "redo")]
+    for n, edit in enumerate(edits):
+        at_once.ask(edit)
+        waiting.session.send(edit)
+        line = waiting.session.answer()
+        assert line["record"] == n + n // 3 + 1 and "chunks" not in line, line
+        if n % 3 == 2:
+            mesh = waiting.session.ask({"op": "write", "path": "now.ply"})
+            assert mesh["output"] == "now.ply", mesh
+            line = waiting.record()
+            assert line["op"] == "write" and waiting.chunks == at_once.chunks, line
+    assert waiting.chunks != at_once.chunks
+    waiting.session.process.stdin.close()
+    line = waiting.record()
+    assert line["op"] == "end" and "touched" not in line and waiting.chunks == at_once.chunks, line
+    assert at_once.session.end()[0] == 0 and waiting.session.process.wait(PATIENCE) == 0
+
+
 def test_chunks_are_files(mc):
     folder = pathlib.Path("chunks")
     folder.mkdir()

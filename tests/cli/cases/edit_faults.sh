@@ -20,6 +20,8 @@ mc edit $in --script good.jsonl -o n.ply -o n.ply
 mc edit $in --script good.jsonl -o - --to ply --report -
 mc edit $in --script good.jsonl --chunk-dir chunks -o n.ply
 mc edit $in --script good.jsonl --chunk-cells 16 -o n.ply
+mc edit $in --script good.jsonl --emit-at write -o n.ply
+mc edit $in --script good.jsonl --emit chunks --emit-at end
 mc edit $in --script good.jsonl --emit chunks --chunk-cells 24
 mc edit $in --script good.jsonl --emit everything
 mc edit $in --script good.jsonl --emit chunks -o - --to ply
