@@ -267,6 +267,8 @@ class SlabReader {
   [[nodiscard]] virtual FieldStatistics seen() const { return {}; }
   /// The volume's materials; null where it has none.
   [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
+  /// Memory that it holds from plane to plane, pages of mapped files aside.
+  [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
 };
 
 /// A cube of equal samples, `size` a multiple of 8, `origin` a multiple of `size`.
@@ -307,6 +309,13 @@ class LeafReader {
 using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>>;
 [[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
 [[nodiscard]] const MaterialReader* materials_of(const VolumeReader& reader);
+/// What is left of so much memory beside an input that holds so much: at least half, where it holds
+/// more than nobody can make less.
+[[nodiscard]] constexpr std::uint64_t memory_beside(std::uint64_t held_bytes,
+                                                    std::uint64_t memory_bytes) {
+  const std::uint64_t half = memory_bytes / 2;
+  return memory_bytes - (held_bytes < half ? held_bytes : half);
+}
 
 /// The port by which volumes leave.
 class VolumeSink {

@@ -58,7 +58,8 @@ EditSession::EditSession(const EditArgs& args, EditPlan plan, Invocation& invoca
       plan_(std::move(plan)),
       invocation_(invocation),
       report_(plan_.report),
-      script_(plan_.script, {.open = {}, .root = plan_.surface.source.root}) {
+      script_(plan_.script, {.left = source::SpecNesting::most_samples(plan_.surface.memory_bytes),
+                             .root = plan_.surface.source.root}) {
   if (is_heard() || plan_.surface.common.verbose) peak_.emplace();
 }
 
@@ -197,7 +198,8 @@ std::optional<source::ScriptRecord> EditSession::next_record() {
     try {
       return script_.next();
     } catch (const Error& error) {
-      if (error.kind() != ErrorKind::usage) throw;
+      // A record may name a volume that is too large.
+      if (error.kind() != ErrorKind::usage && error.kind() != ErrorKind::limit) throw;
       const int status = show(invocation_.console, {static_cast<int>(error.kind()), error.lines()});
       if (status_ == 0) status_ = status;
       if (plan_.keep_going) continue;

@@ -117,7 +117,8 @@ class Gatherer {
 
 Picture read_plane(const SlabReader& thin, const Volume& whole, std::size_t axis,
                    const SamplePlan& plan, Invocation& invocation) {
-  const std::int32_t step = planes_a_read(whole, plan.memory_bytes, plan.job.output);
+  const std::int32_t step =
+      planes_a_read(whole, memory_beside(thin.held_bytes(), plan.memory_bytes), plan.job.output);
   const std::int32_t n_planes = thin.volume().lattice.dims()[2];
   Gatherer gatherer(thin.volume(), axis);
   invocation.console.begin("slice", static_cast<std::uint64_t>(n_planes), "planes");

@@ -19,7 +19,8 @@ void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& 
                   Invocation& invocation) {
   const Volume& volume = reader.volume();
   const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
-  const std::int32_t step = planes_a_read(volume, plan.memory_bytes, plan.job.output);
+  const std::int32_t step =
+      planes_a_read(volume, memory_beside(reader.held_bytes(), plan.memory_bytes), plan.job.output);
   invocation.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
   Slab slab;
   for (std::int32_t k = 0; k < n_planes; k += step) {

@@ -111,6 +111,9 @@ class EditedSlabs final : public SlabReader, public field::BoxReader {
   [[nodiscard]] bool rereads_cheaply() const override {
     return samples_.filled() || input().rereads_cheaply();
   }
+  [[nodiscard]] std::uint64_t held_bytes() const override {
+    return samples_.filled() ? 0 : input().held_bytes();
+  }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
     out.sides.clear();

@@ -399,7 +399,9 @@ FieldStatistics measure_field(const VolumeReader& reader, std::span<const double
       std::visit([](const auto& port) { return field::scan_length(*port); }, reader);
   progress.begin("statistics", n_samples * n_passes(sample_size(type), percentiles.size()),
                  "samples");
-  const Watch watch{progress, stop, memory_bytes};
+  const std::uint64_t held =
+      std::visit([](const auto& port) { return port->held_bytes(); }, reader);
+  const Watch watch{progress, stop, memory_beside(held, memory_bytes)};
   return field::visit_type(type, [&]<class T>(field::TypeTag<T>) {
     if constexpr (sizeof(T) <= 2) {
       return measure_counted<T>(reader, percentiles, watch);

@@ -253,6 +253,7 @@ class CropView final : public SlabReader {
   }
   [[nodiscard]] bool rereads_cheaply() const override { return whole_.rereads_cheaply(); }
   [[nodiscard]] bool reads_once() const override { return whole_.reads_once(); }
+  [[nodiscard]] std::uint64_t held_bytes() const override { return whole_.held_bytes(); }
 
  private:
   const SlabReader& whole_;

@@ -108,6 +108,7 @@ class DenseTasks final : public TaskList {
     return n_slots * (extraction::DenseExtractor::scratch_bytes(grid_) + slab) +
            extraction::DenseBands::scratch_bytes(grid_, n_makers);
   }
+  [[nodiscard]] std::uint64_t input_bytes() const override { return reader_.held_bytes(); }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
     return extraction::DenseBands::least_bytes(grid_);
   }

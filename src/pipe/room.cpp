@@ -62,10 +62,8 @@ class Shares {
   std::uint64_t vertex_, made_vertex_, made_triangle_;
 };
 
-/// What is left beside the input. An input of more than half of the memory, which nobody can make
-/// smaller, leaves half.
 std::uint64_t own_budget(const TaskList& tasks, const RunOptions& options) {
-  return options.memory_bytes - std::min(tasks.input_bytes(), options.memory_bytes / 2);
+  return memory_beside(tasks.input_bytes(), options.memory_bytes);
 }
 
 std::uint64_t piece_bytes(const TaskList& tasks, std::uint64_t budget) {

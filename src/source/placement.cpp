@@ -30,6 +30,7 @@ class PlacedReader final : public SlabReader, public field::BoxReader {
   }
   [[nodiscard]] bool rereads_cheaply() const override { return reader_->rereads_cheaply(); }
   [[nodiscard]] const MaterialReader* materials() const override { return reader_->materials(); }
+  [[nodiscard]] std::uint64_t held_bytes() const override { return reader_->held_bytes(); }
 
  private:
   std::unique_ptr<SlabReader> reader_;

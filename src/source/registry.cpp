@@ -188,6 +188,7 @@ Source open_decided(const InputFiles& inputs, Decision decision, const SourceOpt
     case Format::spec: {
       // From the bytes that told what it is: a FIFO gives them once.
       within.root = options.root;
+      within.left = std::min(within.left, SpecNesting::most_samples(options.memory_bytes));
       const MappedFile file = mapped(std::move(decision), progress);
       std::unique_ptr<SlabReader> spec = open_spec_text(file.place(), file.text(), within);
       source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
@@ -230,6 +231,7 @@ Source open_named(const std::string& path, const std::optional<std::string>& gri
   }
   SourceOptions options;
   options.root = within.root;
+  options.memory_bytes = 2 * within.left * sizeof(float);  // so that half of it is left
   Decision decision = decide_by_content(inputs, options);
   if (grid && decision.format != Format::vdb) {
     throw Error(ErrorKind::input, path,

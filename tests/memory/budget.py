@@ -154,12 +154,18 @@ def make_volumes(mc, folder, vdb, exr):
     outputs = ["ball.nrrd", *["ball.vdb"] * vdb, *["slices/ball.####.exr"] * exr]
     for output in outputs:
         subprocess.run([mc, "sample", "ball.json", "-q", "-o", output], cwd=folder, check=True)
+    (folder / "small.json").write_text(json.dumps(ball_spec(127)))
+    subprocess.run([mc, "sample", "small.json", "-q", "-o", "small.nrrd"], cwd=folder, check=True)
+    named = ball_spec(255)
+    named["field"] = {"type": "volume", "path": "small.nrrd"}
+    (folder / "named.json").write_text(json.dumps(named))
     (folder / "noise.raw").write_bytes(noise_bytes(512 * 512 * 40, 5))
     noise = ["--dims", "512,512,40", "--type", "u8"]
     volumes = {
         "file": (["ball.nrrd"], None),
         "stdin": (["-"], "ball.nrrd"),
         "spec": (["ball.json"], None),
+        "spec of a volume": (["named.json"], None),
         "vdb": (["ball.vdb"], None),
         "slices": (["slices"], None),
         "noise": (["noise.raw", *noise], None),

@@ -58,7 +58,8 @@ TextPosition Faults::position(std::size_t offset) const {
   return at;
 }
 
-void Faults::add(std::size_t offset, const std::string& pointer, const std::string& message) {
+void Faults::add(std::size_t offset, const std::string& pointer, const std::string& message,
+                 ErrorKind kind) {
   if (full()) {
     return skip();
   }
@@ -71,7 +72,7 @@ void Faults::add(std::size_t offset, const std::string& pointer, const std::stri
   if (!pointer.empty()) {
     line += pointer + ": ";
   }
-  faults_.push_back({offset, line + message});
+  faults_.push_back({offset, line + message, kind});
 }
 
 std::string Faults::where(std::size_t offset) const {
@@ -96,7 +97,9 @@ void Faults::throw_if_any() const {
     lines.push_back(place_ + ": " + std::to_string(sorted.size() - n + n_skipped_) +
                     " more faults; correct those above first");
   }
-  throw Error(ErrorKind::usage, lines);
+  const bool limits = std::ranges::all_of(
+      sorted, [](const Fault& fault) { return fault.kind == ErrorKind::limit; });
+  throw Error(limits ? ErrorKind::limit : ErrorKind::usage, lines);
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& candidates) {

@@ -31,7 +31,8 @@ class Faults {
       : place_(std::move(place)), text_(text), first_line_(first_line), label_(std::move(label)) {}
 
   /// `pointer` is the JSON Pointer of what is at fault, empty for the document.
-  void add(std::size_t offset, const std::string& pointer, const std::string& message);
+  void add(std::size_t offset, const std::string& pointer, const std::string& message,
+           ErrorKind kind = ErrorKind::usage);
 
   /// Past kMostKept faults the rest is only counted: then call skip() and spare the message.
   [[nodiscard]] bool full() const { return faults_.size() >= kMostKept; }
@@ -43,14 +44,15 @@ class Faults {
   /// "line L, column C", to refer to another place from a message.
   [[nodiscard]] std::string where(std::size_t offset) const;
 
-  /// Throws Error(usage) with a line a fault, by place in the text; at most kMost, the last of
-  /// which counts the rest.
+  /// Throws an Error with a line a fault, by place in the text; at most kMost, the last of which
+  /// counts the rest. It is of kind limit if all faults are, else usage.
   void throw_if_any() const;
 
  private:
   struct Fault {
     std::size_t offset;
     std::string line;
+    ErrorKind kind;
   };
   [[nodiscard]] TextPosition position(std::size_t offset) const;
 

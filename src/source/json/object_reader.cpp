@@ -8,11 +8,11 @@
 
 namespace mc::source {
 
-void JsonDocument::fault(const JsonValue& at, const std::string& message) const {
+void JsonDocument::fault(const JsonValue& at, const std::string& message, ErrorKind kind) const {
   if (faults.full()) {
     return faults.skip();
   }
-  faults.add(at.offset, pointer_to(root, at), message);
+  faults.add(at.offset, pointer_to(root, at), message, kind);
 }
 
 std::string as_found(const JsonValue& value) {

@@ -22,7 +22,8 @@ struct JsonDocument {
   Faults& faults;
 
   /// `message` reads "is 99: expected 1 to 32".
-  void fault(const JsonValue& at, const std::string& message) const;
+  void fault(const JsonValue& at, const std::string& message,
+             ErrorKind kind = ErrorKind::usage) const;
 };
 
 /// `is 99`, `is "fast"`, `is an array`: how a message begins.

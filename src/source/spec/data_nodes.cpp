@@ -17,7 +17,9 @@ void read_file(const JsonDocument& document, const JsonValue& at, F&& read) {
   try {
     read();
   } catch (const Error& error) {
-    document.fault(at, std::string("cannot be read: ") + error.what());
+    const bool limit = error.kind() == ErrorKind::limit;
+    document.fault(at, std::string("cannot be read: ") + error.what(),
+                   limit ? error.kind() : ErrorKind::usage);
   }
 }
 

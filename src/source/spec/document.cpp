@@ -150,6 +150,7 @@ SpecDocument load_spec(const std::string& place, std::string_view text, const Sp
   spec.volume.cls = settings.convention == Convention::density ? VolumeClass::density_spec
                                                                : VolumeClass::sdf_spec;
   spec.volume.iso = iso;
+  spec.data_bytes = files.bytes();
   if (has_border) {
     spec.volume.border = border;
   }

@@ -18,6 +18,7 @@ struct SpecDocument {
   Vec3 spacing{};
   GraphField field;
   std::optional<GraphField> material;  ///< its value is an index
+  std::uint64_t data_bytes = 0;        ///< of pictures and volumes that nodes read
 };
 
 /// Errors   usage, with every fault of the document; those of SpecFiles.

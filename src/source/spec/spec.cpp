@@ -39,6 +39,7 @@ class SpecReader final : public SlabReader, public field::BoxReader, private Mat
     return spec_.material ? this : nullptr;
   }
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
+  [[nodiscard]] std::uint64_t held_bytes() const override { return spec_.data_bytes; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
     out.sides.clear();

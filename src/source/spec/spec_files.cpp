@@ -86,7 +86,7 @@ NamedVolume described(const Volume& volume) {
 }  // namespace
 
 SpecFiles::SpecFiles(const std::string& document, const SpecNesting& within)
-    : folder_(fs::path(document).parent_path().string()), inside_(within) {
+    : folder_(fs::path(document).parent_path().string()), inside_(within), most_(within.left) {
   const std::string path = whole_path(document);
   if (std::ranges::find(inside_.open, path) != inside_.open.end()) {
     throw Error(ErrorKind::usage, document, "closes a ring of documents",
@@ -107,9 +107,10 @@ std::string SpecFiles::resolved(const std::string& path) const {
 
 void SpecFiles::take(std::uint64_t n_samples, const std::string& place) {
   if (n_samples > inside_.left) {
-    throw Error(ErrorKind::limit, place,
-                "brings the samples that this document reads above " +
-                    std::to_string(SpecNesting::kMostSamples));
+    throw Error(
+        ErrorKind::limit, place,
+        "brings the samples that this document reads above " + std::to_string(most_),
+        most_ < SpecNesting::kMostSamples ? "raise --memory, of which they may take half" : "");
   }
   inside_.left -= n_samples;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,8 +18,12 @@ namespace mc::source {
 
 /// What a document that is read as another one's volume stands in.
 struct SpecNesting {
-  /// Samples that the files of one document may have together: 1 GiB of float32.
+  /// Samples that the files of one document may have together: 1 GiB of float32, and half of the
+  /// memory.
   static constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 28;
+  static constexpr std::uint64_t most_samples(std::uint64_t memory_bytes) {
+    return std::min(kMostSamples, memory_bytes / 2 / sizeof(float));
+  }
   static constexpr std::size_t kMostDocuments = 8;
 
   std::vector<std::string> open{};  ///< the documents around it, as whole paths, outermost first
@@ -42,17 +47,22 @@ class SpecFiles {
   /// One channel of a picture, top row first. PNG numbers are divided by the greatest of their
   /// type, so that white is 1; EXR numbers are taken as they are. A picture that is named again is
   /// read once.
-  /// Errors   input: missing, no picture, damaged, no such channel; limit: more than kMostSamples.
+  /// Errors   input: missing, no picture, damaged, no such channel; limit: more samples than are
+  /// left.
   std::shared_ptr<const Raster> picture(const std::string& path,
                                         const std::optional<std::string>& channel);
 
   /// A volume of any kind, made dense. One that is named again is read once.
-  /// Errors   those of open_named() and read_volume(); usage: stdin; limit: more than kMostSamples.
+  /// Errors   those of open_named() and read_volume(); usage: stdin; limit: more samples than are
+  ///          left.
   const NamedVolume& named_volume(const std::string& path, const std::optional<std::string>& grid);
   std::shared_ptr<const SampledVolume> volume(const std::string& path,
                                               const std::optional<std::string>& grid) {
     return named_volume(path, grid).samples;
   }
+
+  /// Of all that was read.
+  [[nodiscard]] std::uint64_t bytes() const { return (most_ - inside_.left) * sizeof(float); }
 
  private:
   using Key = std::pair<std::string, std::optional<std::string>>;
@@ -62,6 +72,7 @@ class SpecFiles {
 
   std::string folder_;
   SpecNesting inside_;  ///< what this document's own volumes stand in
+  std::uint64_t most_;  ///< samples, of which inside_.left are left
   std::map<Key, std::shared_ptr<const Raster>> pictures_;
   std::map<Key, NamedVolume> volumes_;
 };

@@ -150,11 +150,15 @@ TEST(SpecVolume, NeedsAMapThatCanBeInverted) {
 class SpecVolumeFaults : public testing::Test {
  protected:
   /// What is said of the path "NAME" in a.json, without the document's place.
-  std::string fault_of(const std::string& keys) const {
+  std::string fault_of(const std::string& keys,
+                       std::uint64_t memory_bytes = SourceOptions{}.memory_bytes) const {
     const std::string path = folder_.file("a.json", document(keys));
-    const std::string text = error_of_open({path});
-    const std::string head = "2 " + path + ":1:107: /field/path: cannot be read: ";
-    return text.starts_with(head) ? text.substr(head.size()) : text;
+    SourceOptions options;
+    options.memory_bytes = memory_bytes;
+    const std::string text = error_of_open({path}, options);
+    const std::string head = path + ":1:107: /field/path: cannot be read: ";
+    if (text.starts_with("2 " + head)) return text.substr(2 + head.size());
+    return text.starts_with("6 " + head) ? "limit: " + text.substr(2 + head.size()) : text;
   }
   [[nodiscard]] std::string at(std::string_view name) const { return folder_.path(name); }
 
@@ -216,8 +220,30 @@ TEST_F(SpecVolumeFaults, OfWhatIsNoVolume) {
 TEST_F(SpecVolumeFaults, OfTooManySamples) {
   static_cast<void>(folder_.file("b.json", R"({"format": "mc-volume", "version": 1,
       "grid": {"samples": [1000000000, 1000, 2]}, "field": 1})"));
-  EXPECT_EQ(fault_of(R"("b.json")"),
-            at("b.json") + ": brings the samples that this document reads above 268435456");
+  const std::string fault =
+      "limit: " + at("b.json") + ": brings the samples that this document reads above ";
+  const std::string remedy = "; raise --memory, of which they may take half";
+  EXPECT_EQ(fault_of(R"("b.json")"), fault + "134217728" + remedy);
+  EXPECT_EQ(fault_of(R"("b.json")", std::uint64_t{1} << 40), fault + "268435456");
+}
+
+TEST_F(SpecVolumeFaults, OfTooLittleMemory) {
+  static_cast<void>(folder_.file("v.nrrd", nrrd("")));
+  EXPECT_EQ(fault_of(R"("v.nrrd")", 2 * 12 * sizeof(float)), "no error");
+  EXPECT_EQ(fault_of(R"("v.nrrd")", 2 * 11 * sizeof(float)),
+            "limit: " + at("v.nrrd") +
+                ": brings the samples that this document reads above 11; raise --memory, of which "
+                "they may take half");
+  // A document in a document has what is left.
+  static_cast<void>(folder_.file("c.json", document(R"("v.nrrd")")));
+  EXPECT_EQ(fault_of(R"("c.json")", 2 * 12 * sizeof(float)), "no error");
+}
+
+TEST(SpecVolume, SaysWhatItHolds) {
+  const Folder folder;
+  static_cast<void>(folder.file("v.nrrd", nrrd("")));
+  const Source source = test::open({folder.file("a.json", document(R"("v.nrrd")"))});
+  EXPECT_EQ(test::slabs(source).held_bytes(), 12 * sizeof(float));
 }
 
 TEST_F(SpecVolumeFaults, OfRings) {
