@@ -36,6 +36,9 @@ class EditSession {
  private:
   using Clock = std::chrono::steady_clock;
 
+  static bool is_step(source::RecordKind kind) {
+    return kind == source::RecordKind::undo || kind == source::RecordKind::redo;
+  }
   void check_script();
   void look_at_write(const source::ScriptRecord& record);
   void check_outputs();
