@@ -28,9 +28,10 @@ std::uint64_t limit_in(const std::string& path) {
 
 /// The least limit from a group up to the root.
 std::uint64_t limit_up_from(const std::string& root, std::string group, const std::string& name) {
-  std::uint64_t least = limit_in(root + "/" + name);
+  const std::string file = "/" + name;
+  std::uint64_t least = limit_in(root + file);
   while (!group.empty() && group != "/") {
-    least = std::min(least, limit_in(root + group + "/" + name));
+    least = std::min(least, limit_in(std::string(root).append(group).append(file)));
     group.resize(group.rfind('/'));
   }
   return least;

@@ -10,7 +10,8 @@
 
 #include "mc/sink.hpp"
 
-// A map that is never destroyed, so that it outlives every static object.
+// A map that is there from the start, since a signal may come before the first name and its handler
+// must not allocate, and that is never destroyed, so that it outlives every static object.
 
 namespace mc {
 
@@ -21,14 +22,11 @@ using namespace std::chrono_literals;
 std::timed_mutex names_mutex;
 
 /// Each name, and what is to have it again; empty: it is to be unlinked.
-std::map<std::string, std::string>& names() {
-  static auto& all = *new std::map<std::string, std::string>();
-  return all;
-}
+std::map<std::string, std::string>& names = *new std::map<std::string, std::string>();
 
 void note(const std::string& name, const std::string& target) noexcept {
   try {
-    names()[name] = target;
+    names[name] = target;
   } catch (const std::bad_alloc&) {
     return;
   }
@@ -46,7 +44,7 @@ void PartialNames::add_former(const std::string& name, const std::string& target
   note(name, target);
 }
 
-void PartialNames::forget(const std::string& name) noexcept { names().erase(name); }
+void PartialNames::forget(const std::string& name) noexcept { names.erase(name); }
 
 }  // namespace sink
 
@@ -54,7 +52,7 @@ void unlink_partials() noexcept {
   // A rename that the system has blocked must not keep the process from ending: nothing changes the
   // names while it is blocked.
   static_cast<void>(names_mutex.try_lock_for(100ms));
-  for (const auto& [name, target] : names()) {
+  for (const auto& [name, target] : names) {
     if (!target.empty()) std::rename(name.c_str(), target.c_str());
     ::unlink(name.c_str());  // also where both were one file, which rename() leaves alone
   }
