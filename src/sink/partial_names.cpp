@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <map>
 #include <new>
+#include <thread>
 
 #include "mc/sink.hpp"
 
@@ -19,7 +20,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::timed_mutex names_mutex;
+std::mutex names_mutex;
 
 /// Each name, and what is to have it again; empty: it is to be unlinked.
 std::map<std::string, std::string>& names = *new std::map<std::string, std::string>();
@@ -50,8 +51,10 @@ void PartialNames::forget(const std::string& name) noexcept { names.erase(name);
 
 void unlink_partials() noexcept {
   // A rename that the system has blocked must not keep the process from ending: nothing changes the
-  // names while it is blocked.
-  static_cast<void>(names_mutex.try_lock_for(100ms));
+  // names while it is blocked. (GCC 12's ThreadSanitizer does not see try_lock_for().)
+  for (int tries = 0; tries < 100 && !names_mutex.try_lock(); ++tries) {
+    std::this_thread::sleep_for(1ms);
+  }
   for (const auto& [name, target] : names) {
     if (!target.empty()) std::rename(name.c_str(), target.c_str());
     ::unlink(name.c_str());  // also where both were one file, which rename() leaves alone

@@ -23,7 +23,7 @@ class PartialNames {
   void forget(const std::string& name) noexcept;
 
  private:
-  std::unique_lock<std::timed_mutex> lock_;
+  std::unique_lock<std::mutex> lock_;
 };
 
 }  // namespace mc::sink
