@@ -36,8 +36,7 @@ def run(script, mc):
         env = {k: v for k, v in os.environ.items() if not k.startswith(("MC_SIMD", "LC_", "LANG"))}
         env.update(MC=str(mc), DATA=str(DATA), CASES=str(HERE), TERM="dumb")
         done = subprocess.run(["sh", "-eu", str(script)], cwd=folder, env=env,
-                              stdin=subprocess.DEVNULL, capture_output=True, timeout=100,
-                              check=False)
+                              stdin=subprocess.DEVNULL, capture_output=True, check=False)
     def text(data):
         return data.decode("utf-8", "backslashreplace").replace(folder, "FOLDER")
     return done.returncode, text(done.stdout), text(done.stderr)
