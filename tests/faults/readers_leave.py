@@ -20,8 +20,8 @@ def start(mc, folder, words, **more):
 
 def leave_after(run, n_bytes):
     """Reads so much, and leaves; status and messages."""
-    while n_bytes > 0:
-        n_bytes -= len(run.stdout.read(min(n_bytes, 4096)))
+    while n_bytes > 0 and (data := run.stdout.read(min(n_bytes, 4096))):
+        n_bytes -= len(data)
     run.stdout.close()
     stderr = run.stderr.read().decode()
     return run.wait(timeout=60), stderr
