@@ -133,7 +133,7 @@ void EditSession::check_hash(const source::ScriptRecord& record,
   throw Error(ErrorKind::input, script_.place(),
               fmt::format("record {}: the volume {} it differs from the one that was recorded",
                           record.number, when),
-              "replay a journal on its own input, or leave out \"before\" and \"after\"");
+              R"(replay a journal on its own input, or leave out "before" and "after")");
 }
 
 void EditSession::note_in_journal(const source::ScriptRecord& record, std::size_t n_steps) {

@@ -97,10 +97,10 @@ class SampleBits {
 
 class EditedSlabs final : public SlabReader, public field::BoxReader {
  public:
-  EditedSlabs(const World& world, const Volume& volume)
+  EditedSlabs(const World& world, Volume volume)
       : samples_(world.samples),
         materials_(world),
-        volume_(volume),
+        volume_(std::move(volume)),
         size_(samples_.input().sample_bytes()) {
     for (const auto& [at, block] : samples_.layer().blocks()) stored_.push_back(at);
     std::sort(stored_.begin(), stored_.end(), comes_before);
@@ -176,7 +176,7 @@ class EditedSlabs final : public SlabReader, public field::BoxReader {
 };
 
 bool is_within(const std::byte* at, const Buffer<std::byte>& storage) {
-  const std::less<const std::byte*> less;
+  const std::less<> less;
   return !less(at, storage.data()) && less(at, storage.data() + storage.size());
 }
 
@@ -266,7 +266,8 @@ void EditedSlabs::patch(Slab& out) const {
     const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
     for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
       for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
-        const auto row = static_cast<std::size_t>((k - from[2]) * kSide + (j - from[1]));
+        const auto row =
+            static_cast<std::size_t>(k - from[2]) * kSide + static_cast<std::size_t>(j - from[1]);
         std::byte* to = row_of(out, {part.lo[0], j, k});
         std::memcpy(to, samples + row * kSide * size_, row_bytes);
         if (volume_.endian != std::endian::native) swap_samples({to, row_bytes}, size_);
