@@ -97,14 +97,23 @@ def public_fault(_path, _quote, name):
     return "public headers include the standard library and mc/ only"
 
 
+def simd_fault(path, text):
+    """Files that differ in their SIMD targets would share Highway's choice among them."""
+    if path.endswith("_simd.cpp") and "#define HWY_WANT_AVX3_DL 1\n" not in text:
+        return "wants no AVX3_DL: see src/base/highway_simd.cpp"
+    return None
+
+
 def faults(root):
     for folder, fault in (("include", public_fault), ("src", source_fault)):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in {".hpp", ".cpp", ".h", ".inl"}:
                 continue
             path = file.relative_to(root / folder).as_posix()
-            lines = file.read_text(encoding="utf-8").splitlines()
-            for number, line in enumerate(lines, start=1):
+            text = file.read_text(encoding="utf-8")
+            if folder == "src" and (why := simd_fault(path, text)):
+                yield f"{folder}/{path}: {why}"
+            for number, line in enumerate(text.splitlines(), start=1):
                 match = INCLUDE.match(line)
                 why = match and fault(path, match[1], match[2])
                 if why:

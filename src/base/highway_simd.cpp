@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+#define HWY_WANT_AVX3_DL 1
 #include "hwy/targets.h"
 
 // What Highway asks for at run time: which targets this machine offers, which is chosen, and where
 // an assertion of a debug build fails. Highway's own library answers, but times its clock for its
 // benchmarks when it is loaded, which takes longer than a small run of ours: 5 ms. On x86 it is
 // therefore not linked.
+//
+// Every file that includes Highway wants AVX3_DL: the choice of a target is an inline function that
+// knows which targets its file was compiled for, and where it is not inlined all files share one.
 //
 // Source   Highway 1.0.3, hwy/targets.cc. The definitions are weak: a program that links the
 // library for itself keeps it.

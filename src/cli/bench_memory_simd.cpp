@@ -2,6 +2,7 @@
 #include "cli/bench_memory.hpp"
 
 #undef HWY_TARGET_INCLUDE
+#define HWY_WANT_AVX3_DL 1
 #define HWY_TARGET_INCLUDE "cli/bench_memory_simd.cpp"
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>  // must come before highway.h

@@ -4,6 +4,7 @@
 // Compiles word_kernels-inl.hpp for every target that Highway offers and picks one at run time.
 
 #undef HWY_TARGET_INCLUDE
+#define HWY_WANT_AVX3_DL 1
 #define HWY_TARGET_INCLUDE "mesh/word_kernels_simd.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 

@@ -38,7 +38,7 @@ class IncludeLaw(unittest.TestCase):
             "include/mc/base.hpp": '#include <vector>\n#include "mc/field.hpp"\n',
             "src/base/file.cpp": "#include <sys/mman.h>\n#include <fmt/format.h>\n",
             "src/base/parallel.cpp": "#include <tbb/parallel_for.h>\n",
-            "src/extract/rows_simd.cpp": '#include "hwy/highway.h"\n#include "mesh/a.hpp"\n',
+            "src/extract/rows_simd.cpp": '#define HWY_WANT_AVX3_DL 1\n#include "hwy/highway.h"\n',
             "src/sink/vdb/module/grid.cpp": '#include <openvdb/openvdb.h>\n#include "mc/field.hpp"\n',
             "src/cli/main.cpp": '#include <CLI/CLI.hpp>\n#include "sink/ply/ply.hpp"\n',
         }
@@ -75,6 +75,11 @@ class IncludeLaw(unittest.TestCase):
             "<boost/any.hpp>",
             "unknown library: give it a door in scripts/includes.py",
         )
+
+    def test_simd_files_want_the_same_targets(self):
+        status, lines = run_on({"src/mesh/a_simd.cpp": "#include <hwy/highway.h>\n"})
+        self.assertEqual(status, 1)
+        self.assertEqual(lines, ["src/mesh/a_simd.cpp: wants no AVX3_DL: see src/base/highway_simd.cpp"])
 
     def test_public_headers(self):
         why = "public headers include the standard library and mc/ only"

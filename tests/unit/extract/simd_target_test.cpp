@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#define HWY_WANT_AVX3_DL 1
 #include "hwy/targets.h"
 
 namespace mc {
