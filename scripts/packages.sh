@@ -27,6 +27,7 @@ mc_test_packages=(
 
 mc_check_packages=(
   clang:clang++ clang-tidy-14 libclang-rt-14-dev pandoc:pandoc shellcheck:shellcheck
+  xz-utils:xz # for what fuzzers found
 )
 
 mc_bench_packages=(
