@@ -50,7 +50,8 @@ class NoiseRows {
   explicit NoiseRows(float askew) {
     for (std::size_t n = 0; n < kPlaces; ++n) {
       const auto i = static_cast<float>(n % graph::kPiece);
-      const auto j = static_cast<float>(n / graph::kPiece);
+      const std::size_t row = n / graph::kPiece;
+      const auto j = static_cast<float>(row);
       at_[0][n] = i * 0.173F - 3.1F;
       at_[1][n] = j * 0.31F + i * 0.021F * askew;
       at_[2][n] = j * 0.29F - i * 0.017F * askew - 5;

@@ -213,6 +213,7 @@ std::string bare_options(std::string_view command) {
 
 std::vector<std::string_view> command_names() {
   std::vector<std::string_view> names;
+  names.reserve(std::size(kPages) + 1);
   for (const Page& page : kPages) names.push_back(page.name);
   names.emplace_back("help");
   return names;

@@ -257,8 +257,9 @@ void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inp
 /// "z=0", "k=3".
 SliceChoice parse_slice(const std::string& text) {
   static constexpr std::string_view kAxes = "ijkxyz";
-  const std::size_t axis = text.size() > 2 && text[1] == '=' ? kAxes.find(text[0]) : kAxes.npos;
-  if (axis == kAxes.npos) {
+  const std::size_t axis =
+      text.size() > 2 && text[1] == '=' ? kAxes.find(text[0]) : std::string_view::npos;
+  if (axis == std::string_view::npos) {
     refuse("--slice", fmt::format("'{}': expected x, y or z=POSITION, or i, j or k=INDEX", text));
   }
   SliceChoice slice{.axis = static_cast<int>(axis % 3), .world = axis > 2};

@@ -24,6 +24,7 @@ std::vector<std::int64_t> parse_dims(const std::string& text) {
                             parts.size() == 1 ? "number" : "numbers"));
   }
   std::vector<std::int64_t> dims;
+  dims.reserve(parts.size());
   for (const std::string_view part : parts) {
     dims.push_back(parse_integer("--dims", part, 2, kMostSamplesAlongAxis));
   }

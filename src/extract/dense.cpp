@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace mc::extraction {
 
@@ -30,7 +31,7 @@ struct Mark {
 
 }  // namespace
 
-DenseExtractor::DenseExtractor(const DenseGrid& grid) : grid_(grid) { shape(); }
+DenseExtractor::DenseExtractor(DenseGrid grid) : grid_(std::move(grid)) { shape(); }
 
 void DenseExtractor::shape() {
   for (PlaneBits& plane : planes_) grid_.classifier.shape(plane);

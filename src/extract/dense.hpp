@@ -29,7 +29,7 @@ namespace mc::extraction {
 /// Holds scratch: one to a thread.
 class DenseExtractor {
  public:
-  explicit DenseExtractor(const DenseGrid& grid);
+  explicit DenseExtractor(DenseGrid grid);
   DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options)
       : DenseExtractor(DenseGrid(volume, to_world, options)) {}
   /// Starts with a part.

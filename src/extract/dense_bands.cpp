@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "base/parallel.hpp"
 
@@ -32,7 +33,7 @@ constexpr std::size_t kRowsApiece = 64;
 
 }  // namespace
 
-DenseBands::DenseBands(const DenseGrid& grid) : grid_(grid) {
+DenseBands::DenseBands(DenseGrid grid) : grid_(std::move(grid)) {
   for (PlaneBits& plane : planes_) grid_.classifier.shape(plane);
   k_start_.resize(grid_.classifier.n_rows() + 1);
 }

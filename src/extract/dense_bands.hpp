@@ -25,7 +25,7 @@ class DenseBands {
     std::vector<std::uint32_t> i_ids, j_ids;
   };
 
-  explicit DenseBands(const DenseGrid& grid);
+  explicit DenseBands(DenseGrid grid);
 
   /// Bytes that a band's chunk must be allowed: of a row where every edge is crossed.
   static std::uint64_t least_bytes(const DenseGrid& grid);

@@ -157,7 +157,8 @@ class DenseTasks final : public TaskList {
     const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + kSharedPlanes);
     const std::int32_t most = std::max(planes - kSharedPlanes, 1);
     if (reader_.reads_once()) return std::min(cached, most);
-    const auto n_parts = static_cast<std::uint64_t>(kTasksAThread * base::thread_count());
+    const auto n_parts =
+        std::uint64_t{kTasksAThread} * static_cast<std::uint64_t>(base::thread_count());
     const auto share = static_cast<std::uint64_t>(grid_.n_layers) / n_parts;
     const std::int32_t dear =
         within(std::min(kDearSlabBytes / plane_bytes_, share), kMinLayers, kDearLayers);

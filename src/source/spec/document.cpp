@@ -69,8 +69,8 @@ Grid read_grid(const JsonDocument& document, const JsonValue& value) {
   const JsonValue* cells = keys.optional("cells");
   const JsonValue* samples = keys.optional("samples");
   if (keys.is_object() && (cells == nullptr) == (samples == nullptr)) {
-    document.fault(value, cells == nullptr ? "has neither \"cells\" nor \"samples\": expected one"
-                                           : "has both \"cells\" and \"samples\": expected one");
+    document.fault(value, cells == nullptr ? R"(has neither "cells" nor "samples": expected one)"
+                                           : R"(has both "cells" and "samples": expected one)");
   } else if (cells != nullptr) {
     grid.samples = read_counts(document, *cells, true);
   } else if (samples != nullptr) {
