@@ -166,7 +166,7 @@ std::uint64_t parse_size(std::string_view option, std::string_view text) {
 
 std::string size_text(std::uint64_t n_bytes) {
   static constexpr std::array<std::string_view, 5> kNames{"B", "KiB", "MiB", "GiB", "TiB"};
-  double amount = static_cast<double>(n_bytes);
+  auto amount = static_cast<double>(n_bytes);
   std::size_t unit = 0;
   while (amount >= 1024 && unit + 1 < kNames.size()) {
     amount /= 1024;

@@ -17,8 +17,8 @@ namespace {
 
 class EditedLeaves final : public LeafReader {
  public:
-  EditedLeaves(const World& world, const Volume& volume)
-      : samples_(world.samples), materials_(world), volume_(volume) {
+  EditedLeaves(const World& world, Volume volume)
+      : samples_(world.samples), materials_(world), volume_(std::move(volume)) {
     std::vector<Index3> stored;
     stored.reserve(samples_.layer().blocks().size());
     for (const auto& [at, block] : samples_.layer().blocks()) stored.push_back(at);

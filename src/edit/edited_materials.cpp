@@ -36,7 +36,7 @@ std::size_t EditedMaterials::materials_at(std::span<const Vec3> places,
     bare.push_back(n);
     bare_places.push_back(places[n]);
   }
-  if (bare.empty()) return 0;
+  if (bare.empty() || input_ == nullptr) return 0;
   std::vector<std::uint16_t> found(bare.size());
   const std::size_t n_held = input_->materials_at(bare_places, found);
   for (std::size_t n = 0; n < bare.size(); ++n) out[bare[n]] = found[n];
