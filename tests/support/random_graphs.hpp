@@ -65,6 +65,15 @@ class RandomGraph {
   }
 
   void complete(Node& out) {
+    if (complete_combination(out) || complete_change(out) || complete_noise(out) ||
+        complete_shape(out)) {
+      return;
+    }
+    out.inputs = inputs(1);
+  }
+
+  /// Of several fields.
+  bool complete_combination(Node& out) {
     auto& p = out.numbers;
     switch (out.type) {
       case NodeType::add:
@@ -72,58 +81,85 @@ class RandomGraph {
       case NodeType::min:
       case NodeType::max:
         out.inputs = inputs(whole(1, 3));
-        return;
+        return true;
       case NodeType::unite:
       case NodeType::intersect:
         out.inputs = inputs(whole(1, 3));
         p[0] = whole(0, 1) == 0 ? 0 : std::abs(p[0]);
-        return;
+        return true;
       case NodeType::difference:
         out.inputs = inputs(2);
         p[0] = whole(0, 1) == 0 ? 0 : std::abs(p[0]);
-        return;
+        return true;
       case NodeType::sub:
       case NodeType::div:
       case NodeType::mod:
         out.inputs = inputs(2);
-        return;
+        return true;
       case NodeType::pow:
         out.inputs = {input(), graph_.add({.numbers = {static_cast<float>(whole(-2, 4)) * 0.5F}})};
-        return;
+        return true;
       case NodeType::mix:
         out.inputs = inputs(3);
-        return;
+        return true;
       case NodeType::select:
         out.inputs = inputs(3);
         p[1] = whole(0, 1) == 0 ? 0 : std::abs(p[1]);
-        return;
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  /// Of one field, its values or places.
+  bool complete_change(Node& out) {
+    auto& p = out.numbers;
+    switch (out.type) {
       case NodeType::curve:
         out.inputs = inputs(1);
         out.curve_shape = static_cast<CurveShape>(whole(0, 2));
         for (const float x : rising(whole(2, 4))) out.list.insert(out.list.end(), {x, real(-3, 3)});
-        return;
+        return true;
       case NodeType::terrace:
         out.inputs = inputs(1);
         p = {std::abs(p[0]) + 0.1F, p[1], real(0, 1)};
         if (whole(0, 1) == 0) out.list = rising(whole(2, 4));
-        return;
+        return true;
       case NodeType::affine:
         out.inputs = inputs(1);
         p[0] = whole(0, 1) == 0 ? 0 : p[0];
         for (int n = 0; n < 12; ++n) out.list.push_back(whole(0, 2) == 0 ? 0 : real(-2, 2));
-        return;
+        return true;
       case NodeType::mirror:
         out.inputs = inputs(1);
         p[1] = whole(0, 1) == 0 ? -1 : 1;
         out.axis = static_cast<std::uint8_t>(whole(0, 2));
-        return;
+        return true;
       case NodeType::repeat:
         out.inputs = inputs(1);
         for (std::size_t n = 0; n < 3; ++n) {
           p[n] = std::max(p[n] + 1, 0.0F);
           p[n + 3] = static_cast<float>(whole(0, 3));
         }
-        return;
+        return true;
+      case NodeType::clamp:
+      case NodeType::smoothstep:
+        out.inputs = inputs(1);
+        p[1] = p[0] + std::abs(p[1]) + 0.1F;
+        return true;
+      case NodeType::remap:
+        out.inputs = inputs(1);
+        p[1] = p[0] + std::copysign(std::abs(p[1]) + 0.1F, p[1]);
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  /// Noises and what is made of their octaves.
+  bool complete_noise(Node& out) {
+    auto& p = out.numbers;
+    switch (out.type) {
       case NodeType::white:
       case NodeType::value:
       case NodeType::value_cubic:
@@ -131,17 +167,17 @@ class RandomGraph {
       case NodeType::simplex:
       case NodeType::opensimplex2:
         p[0] = std::exp2(p[0] - 3);
-        return;
+        return true;
       case NodeType::cellular:
         p[0] = std::exp2(p[0] - 3);
         p[1] = std::abs(p[1]) / 3;
         out.cell_return = static_cast<CellReturn>(whole(0, 3));
         out.cell_metric = static_cast<CellMetric>(whole(0, 2));
-        return;
+        return true;
       case NodeType::unity_perlin2d:
         p[0] = std::exp2(p[0] - 3);
         if (whole(0, 1) == 0) out.inputs = inputs(2);
-        return;
+        return true;
       case NodeType::fbm:
       case NodeType::ridged:
       case NodeType::billow:
@@ -149,62 +185,62 @@ class RandomGraph {
         out.inputs = inputs(1);
         out.octaves = static_cast<std::uint32_t>(whole(1, 3));
         p = {2, 0.5F, whole(0, 1) == 0 ? 0 : std::abs(p[2]) / 3, std::abs(p[3])};
-        return;
+        return true;
       case NodeType::warp:
         out.inputs = inputs(2);
         out.warp_mode = static_cast<WarpMode>(whole(0, 2));
         out.octaves = static_cast<std::uint32_t>(whole(1, 3));
-        return;
-      case NodeType::clamp:
-      case NodeType::smoothstep:
-        out.inputs = inputs(1);
-        p[1] = p[0] + std::abs(p[1]) + 0.1F;
-        return;
-      case NodeType::remap:
-        out.inputs = inputs(1);
-        p[1] = p[0] + std::copysign(std::abs(p[1]) + 0.1F, p[1]);
-        return;
+        return true;
+      default:
+        return false;
+    }
+  }
+
+  /// Solids, and what has no input.
+  bool complete_shape(Node& out) {
+    auto& p = out.numbers;
+    switch (out.type) {
       case NodeType::box:
         for (std::size_t n = 3; n < 6; ++n) p[n] = std::abs(p[n]) * 2;
-        return;
+        return true;
       case NodeType::torus:
         p[4] = std::abs(p[4]) / 3;
         p[3] = std::abs(p[3]);
         out.axis = static_cast<std::uint8_t>(whole(0, 2));
-        return;
+        return true;
       case NodeType::roundbox:
         for (std::size_t n = 3; n < 6; ++n) p[n] = 1 + std::abs(p[n]) * 2;
         out.list = {real(0, 0.5F)};
-        return;
+        return true;
       case NodeType::capsule:
         for (int n = 0; n < 6; ++n) out.list.push_back(real(-3, 3));
         for (int n = 0; n < 2; ++n) out.list.push_back(real(0.1F, 2));
-        return;
+        return true;
       case NodeType::cylinder:
       case NodeType::cone:
       case NodeType::ellipsoid:
         for (std::size_t n = 3; n < 6; ++n) p[n] = 0.1F + std::abs(p[n]);
         out.axis = static_cast<std::uint8_t>(whole(0, 2));
-        return;
+        return true;
       case NodeType::gyroid:
         p[3] = 0.5F + std::abs(p[3]);
         p[4] = whole(0, 1) == 0 ? 0 : std::abs(p[4]) / 6;
-        return;
+        return true;
       case NodeType::shell:
         out.inputs = inputs(1);
         p[0] = std::abs(p[0]);
-        return;
+        return true;
       case NodeType::sphere:
         p[3] = std::abs(p[3]);
-        return;
+        return true;
       case NodeType::constant:
       case NodeType::x:
       case NodeType::y:
       case NodeType::z:
       case NodeType::plane:
-        return;
+        return true;
       default:
-        out.inputs = inputs(1);
+        return false;
     }
   }
 
