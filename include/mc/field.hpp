@@ -309,8 +309,8 @@ class LeafReader {
 using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>>;
 [[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
 [[nodiscard]] const MaterialReader* materials_of(const VolumeReader& reader);
-/// What is left of so much memory beside an input that holds so much: at least half, where it holds
-/// more than nobody can make less.
+/// What is left of so much memory beside an input that holds so much. At least half: an input that
+/// holds more cannot be made smaller.
 [[nodiscard]] constexpr std::uint64_t memory_beside(std::uint64_t held_bytes,
                                                     std::uint64_t memory_bytes) {
   const std::uint64_t half = memory_bytes / 2;

@@ -152,19 +152,21 @@ void EditSession::begin() {
 }
 
 void EditSession::begin_to_emit() {
-  const auto began = Clock::now();
   emitter_ = std::make_unique<ChunkEmitter>(plan_, *source_, *store_);
-  RecordReport report{.op = "open", .is_state = true};
-  report.chunks = emitter_->emit_all();
-  report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  tell(to_json(report));
+  tell_state("open", [&] { return emitter_->emit_all(); });
 }
 
 /// What changed since the last write.
 void EditSession::end_to_emit() {
+  tell_state("end", [&] { return emitter_->emit_changes(store_->take_dirty(), last_number_); });
+}
+
+/// Hands chunks out that no record asks for.
+template <class Emit>
+void EditSession::tell_state(const char* op, Emit&& emit) {
   const auto began = Clock::now();
-  RecordReport report{.number = last_number_, .op = "end", .is_state = true};
-  report.chunks = emitter_->emit_changes(store_->take_dirty(), report.number);
+  RecordReport report{.number = last_number_, .op = op, .is_state = true};
+  report.chunks = emit();
   report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
   tell(to_json(report));
 }

@@ -50,6 +50,8 @@ class EditSession {
   void begin();
   void begin_to_emit();
   void end_to_emit();
+  template <class Emit>
+  void tell_state(const char* op, Emit&& emit);
   void note_materials() const;
   void follow_script();
   std::optional<source::ScriptRecord> next_record();

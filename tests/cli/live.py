@@ -221,8 +221,8 @@ def test_what_stays_is_not_sent_again(mc):
 
 
 def test_chunks_can_wait_for_writes(mc):
-    at_once, waiting = Follower(Session(mc, *CHUNKS)), Follower(Session(mc, *CHUNKS, "--emit-at",
-                                                                        "write", "--force"))
+    at_once = Follower(Session(mc, *CHUNKS))
+    waiting = Follower(Session(mc, *CHUNKS, "--emit-at", "write", "--force"))
     at_once.record()
     waiting.record()
     edits = [edit for edit in FOLLOWED if edit["op"] not in ("undo", "redo")]

@@ -53,10 +53,8 @@ struct GltfTransform {
     });
   }
 
-  [[nodiscard]] double determinant() const {
-    const Vec3 c = cofactors()[0];
-    return rows[0][0] * c[0] + rows[0][1] * c[1] + rows[0][2] * c[2];
-  }
+  /// Of the linear part.
+  [[nodiscard]] double determinant() const { return determinant(cofactors()); }
 
   /// Of unit length, where it has any.
   [[nodiscard]] std::array<float, 3> normal(const std::array<float, 3>& given) const {
@@ -64,7 +62,7 @@ struct GltfTransform {
       return given;
     }
     const std::array<Vec3, 3> c = cofactors();
-    const double sign = determinant() < 0 ? -1 : 1;
+    const double sign = determinant(c) < 0 ? -1 : 1;
     Vec3 turned{};
     for (std::size_t r = 0; r < 3; ++r) {
       turned[r] = sign * (c[r][0] * double{given[0]} + c[r][1] * double{given[1]} +
@@ -74,6 +72,11 @@ struct GltfTransform {
     const double scale = length > 0 ? 1 / length : 1;
     return {static_cast<float>(turned[0] * scale), static_cast<float>(turned[1] * scale),
             static_cast<float>(turned[2] * scale)};
+  }
+
+ private:
+  [[nodiscard]] double determinant(const std::array<Vec3, 3>& c) const {
+    return rows[0][0] * c[0][0] + rows[0][1] * c[0][1] + rows[0][2] * c[0][2];
   }
 };
 

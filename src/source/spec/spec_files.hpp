@@ -48,7 +48,7 @@ class SpecFiles {
   /// type, so that white is 1; EXR numbers are taken as they are. A picture that is named again is
   /// read once.
   /// Errors   input: missing, no picture, damaged, no such channel; limit: more samples than are
-  /// left.
+  ///          left.
   std::shared_ptr<const Raster> picture(const std::string& path,
                                         const std::optional<std::string>& channel);
 
