@@ -38,7 +38,8 @@ class Surroundings {
   [[nodiscard]] const Buffer<double>& values() const { return values_; }
   /// Place of a sample, counted from the block's first.
   [[nodiscard]] std::size_t at(std::int32_t i, std::int32_t j, std::int32_t k) const {
-    return static_cast<std::size_t>(((k + ring_) * side_ + (j + ring_)) * side_ + (i + ring_));
+    const std::int32_t n = ((k + ring_) * side_ + (j + ring_)) * side_ + (i + ring_);
+    return static_cast<std::size_t>(n);
   }
   [[nodiscard]] double value(std::int32_t i, std::int32_t j, std::int32_t k) const {
     return values_[at(i, j, k)];

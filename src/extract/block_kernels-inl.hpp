@@ -18,8 +18,7 @@
 #include "extract/case_table.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline std::uint32_t ones(std::uint64_t word) {
@@ -292,8 +291,7 @@ std::size_t emit_block(const BlockBits& above, const Mask512& cells, const IdTab
   return static_cast<std::size_t>(out - begin);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -19,8 +19,7 @@
 #include "extract/classify.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR || HWY_TARGET == HWY_EMU128
@@ -205,8 +204,7 @@ void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint
   });
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

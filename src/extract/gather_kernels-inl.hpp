@@ -20,8 +20,7 @@
 #include "field/visit_type.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET <= HWY_AVX2
@@ -275,8 +274,7 @@ Gathered gather_edges(const PlaneSamples& /*planes*/, const EdgePlaces& /*edges*
 
 #endif
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -17,8 +17,7 @@
 #include "extract/triangle_emitter-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids) {
@@ -140,8 +139,7 @@ std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
   return n / 2;
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -16,8 +16,7 @@
 #include "extract/bit_row.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Words = hn::CappedTag<std::uint64_t, kWordsAtOnce>;
@@ -141,8 +140,7 @@ struct CornerWords {
   }
 };
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

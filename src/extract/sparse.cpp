@@ -99,8 +99,10 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
   const IndexBox& box = plan_.box();
   const Index3 o = origin_of(block);
   const auto bit = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
-    const auto n = static_cast<std::size_t>((i >> 3) + 2 * (j >> 3) + 4 * (k >> 3));
-    return (*above[n])[static_cast<std::size_t>(k & 7)] >> ((j & 7) * 8 + (i & 7)) & 1U;
+    const std::int32_t n = (i >> 3) + 2 * (j >> 3) + 4 * (k >> 3);
+    return (*above[static_cast<std::size_t>(n)])[static_cast<std::size_t>(k & 7)] >>
+               ((j & 7) * 8 + (i & 7)) &
+           1U;
   };
   std::uint64_t crossings = 0;
   for (std::int32_t k = 0; k < 8; ++k) {

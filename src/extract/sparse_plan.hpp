@@ -40,7 +40,7 @@ class BitPool {
   [[nodiscard]] std::uint64_t bytes() const {
     std::uint64_t n = 0;
     for (const std::vector<Mask512>& group : groups_) n += group.size();
-    return n * sizeof(Mask512) + groups_.size() * sizeof(groups_[0]);
+    return n * sizeof(Mask512) + groups_.size() * sizeof(std::vector<Mask512>);
   }
 
  private:

@@ -16,8 +16,7 @@
 #include "extract/row_words-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 /// A row of cells on its way to triangles.
@@ -243,8 +242,7 @@ std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j
   return static_cast<std::size_t>(out - first);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -18,8 +18,7 @@
 #include "extract/vertex_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::extraction {
-namespace HWY_NAMESPACE {
+namespace mc::extraction::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 template <class R>
@@ -217,8 +216,7 @@ std::size_t orient_f64(const EdgeGradients<double>& g, const double* t, std::siz
   return orient(g, t, n, turn, out, failed);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::extraction
+}  // namespace mc::extraction::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

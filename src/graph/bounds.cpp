@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include "graph/bounds_data.hpp"
@@ -33,8 +36,9 @@ Interval sine(Interval a) {
   const double from = double{a.lo} / kPi - 0.5;  // extremes are at integers
   const double to = double{a.hi} / kPi - 0.5;
   Interval out = widened(hull(exact_sin(a.lo), exact_sin(a.hi)), kError);
-  for (double n = std::ceil(from - 1e-6); n <= to + 1e-6; n += 1) {
-    (std::fmod(n, 2) == 0 ? out.hi : out.lo) = std::fmod(n, 2) == 0 ? 1.0F : -1.0F;
+  const auto last = static_cast<std::int32_t>(std::floor(to + 1e-6));
+  for (auto n = static_cast<std::int32_t>(std::ceil(from - 1e-6)); n <= last; ++n) {
+    (n % 2 == 0 ? out.hi : out.lo) = n % 2 == 0 ? 1.0F : -1.0F;
   }
   return between(std::max(out.lo, -1.0F), std::min(out.hi, 1.0F));
 }
@@ -190,6 +194,7 @@ Interval torus(const Interval (&at)[3], const Instruction& instruction) {
 Interval bounds_of(const Instruction& instruction, const WorldBox& world, Interval a, Interval b,
                    Interval c) noexcept {
   const Interval in[3] = {a, b, c};
+  assert(instruction.n_in <= std::size(in));
   for (std::size_t n = 0; n < instruction.n_in; ++n) {
     if (!in[n].known()) return kUnknown;
   }

@@ -29,20 +29,20 @@ std::array<float, 2> range_of(std::span<const float> samples, std::optional<floa
 }  // namespace
 
 const DataUse* DataUses::of(const Node& node) {
-  assert((node.raster != nullptr) != (node.volume != nullptr));
-  const bool is_volume = node.volume != nullptr;
-  const void* samples = node.raster.get();
-  if (is_volume) samples = node.volume.get();
-  const DataUse*& use = known_[{samples, node.wrap, node.filter, node.outside}];
+  const Raster* raster = node.raster.get();
+  const SampledVolume* volume = node.volume.get();
+  assert((raster != nullptr) != (volume != nullptr));
+  const void* sampled = volume != nullptr ? static_cast<const void*>(volume) : raster;
+  const DataUse*& use = known_[{sampled, node.wrap, node.filter, node.outside}];
   if (use == nullptr) {
     const auto made = std::make_shared<DataUse>();
     made->raster = node.raster;
     made->volume = node.volume;
     made->wrap = node.wrap;
     made->filter = node.filter;
-    made->outside = is_volume && !node.outside ? node.volume->background : node.outside;
-    const auto range = is_volume ? range_of(node.volume->samples, made->outside)
-                                 : range_of(node.raster->samples, std::nullopt);
+    made->outside = volume != nullptr && !node.outside ? volume->background : node.outside;
+    const auto range = volume != nullptr ? range_of(volume->samples, made->outside)
+                                         : range_of(raster->samples, std::nullopt);
     made->least = range[0];
     made->greatest = range[1];
     uses_.push_back(made);

@@ -69,7 +69,7 @@ namespace mc::graph {
 [[nodiscard]] inline float exact_log2(float v) noexcept {
   const auto bits = std::bit_cast<std::int32_t>(v);
   const std::int32_t exponent = (bits - 0x3F3504F3) >> 23;  // mantissa in [sqrt(1/2), sqrt(2))
-  const float m = std::bit_cast<float>(bits - exponent * (1 << 23));
+  const auto m = std::bit_cast<float>(bits - exponent * (1 << 23));
   const float s = (m - 1.0F) / (m + 1.0F);
   const float q = s * s;
   float series = 0.320598898F;  // 2 / (9 ln 2)
@@ -94,8 +94,8 @@ namespace mc::graph {
   series = series * f + 1.0F;
   const auto half = static_cast<std::int32_t>(n) >> 1;  // in two steps: 2^128 alone has no float
   const std::int32_t rest = static_cast<std::int32_t>(n) - half;
-  const float first = std::bit_cast<float>((half + 127) * (1 << 23));
-  const float second = std::bit_cast<float>((rest + 127) * (1 << 23));
+  const auto first = std::bit_cast<float>((half + 127) * (1 << 23));
+  const auto second = std::bit_cast<float>((rest + 127) * (1 << 23));
   return (series * first) * second;
 }
 

@@ -19,8 +19,7 @@
 #include "graph/rows.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using Floats = hn::ScalableTag<float>;
@@ -193,8 +192,7 @@ HWY_INLINE void for_each_vector(Row x, Row y, Row z, float frequency, std::size_
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

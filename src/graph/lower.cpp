@@ -111,7 +111,7 @@ CurvePieces curve_pieces(std::span<const float> points, CurveShape shape) {
   for (std::size_t n = 0; n < n_pieces; ++n) {
     const float x = points[2 * n];
     const float end = points[2 * n + 2];
-    const double y = double{points[2 * n + 1]};
+    const auto y = double{points[2 * n + 1]};
     if (shape == CurveShape::steps) {
       curve.pieces.push_back(piece(x, end, y));
     } else if (shape == CurveShape::linear) {

@@ -17,8 +17,7 @@
 #include "graph/lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 
 // The largest value of the raw noise, over all positions and gradients, scales to 1.
 constexpr float kPerlin2Scale = 1.5132795F;
@@ -76,8 +75,7 @@ HWY_INLINE F perlin3(F x, F y, F z, W seed) {
   return are_near(x, y, z) ? perlin3_at<true>(x, y, z, seed) : perlin3_at<false>(x, y, z, seed);
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -25,8 +25,7 @@
 #include "graph/perlin-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 
 using Lookup = decltype(hn::IndicesFromVec(Words(), W()));
 
@@ -193,8 +192,7 @@ inline void perlin3_run(Row x, float y_scaled, float z_scaled, float frequency, 
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -18,7 +18,7 @@ struct Recipe {
   std::array<std::uint32_t, 6> bits;
   const DataUse* data;
 
-  auto operator<=>(const Recipe&) const = default;
+  auto operator<=>(const Recipe&) const = default;  // NOLINT(modernize-use-nullptr): has no pointer
 };
 
 [[nodiscard]] Recipe recipe_of(const Instruction& instruction);

@@ -20,8 +20,7 @@
 // The arithmetic nodes, a row at a time: plain loops that the compiler turns into vectors.
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace {
 
 template <class F>
@@ -200,8 +199,7 @@ void arithmetic_row(const Instruction& instruction, Row a, Row b, Row c, std::si
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

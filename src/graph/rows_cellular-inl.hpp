@@ -24,8 +24,7 @@
 // is exact, and so continuous: cells are visited until none can hold a nearer point.
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace {
 
 /// Cells are visited by their offset on each axis, near ones first.
@@ -217,8 +216,7 @@ void cellular_row(const Instruction& instruction, Row a, Row b, Row c, std::size
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -24,8 +24,7 @@
 // same operations: gradients are chosen by selects.
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace {
 
 // The largest value of the raw noise, over all positions and gradients, scales to 1.
@@ -263,8 +262,7 @@ void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

@@ -23,8 +23,7 @@
 //          functions", for capsule and cone).
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace {
 
 /// The coordinates of a sample from the centre p0, p1, p2.
@@ -183,8 +182,7 @@ void solid_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t 
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

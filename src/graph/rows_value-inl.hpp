@@ -21,8 +21,7 @@
 // Value noises: hashes of lattice points, as they are or blended between points.
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::graph {
-namespace HWY_NAMESPACE {
+namespace mc::graph::HWY_NAMESPACE {
 namespace {
 
 // The largest sum of the weights' sizes, 5/4 for each axis, scales to 1.
@@ -166,8 +165,7 @@ void value_row(const Instruction& instruction, Row a, Row b, Row c, std::size_t 
   }
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::graph
+}  // namespace mc::graph::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // include guard that foreach_target.h flips

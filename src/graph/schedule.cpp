@@ -94,7 +94,7 @@ void give_homes(Program& program) {
 
 }  // namespace
 
-Program schedule(std::vector<Instruction> code, Value result) {
+Program schedule(const std::vector<Instruction>& code, Value result) {
   Program program;
   take_in_order(program, code, result);
   const std::vector<bool> wide = varies_with(program.code, Op::x, Op::z);

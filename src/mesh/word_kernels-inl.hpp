@@ -17,8 +17,7 @@
 #include "mesh/word_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace mc::mesh {
-namespace HWY_NAMESPACE {
+namespace mc::mesh::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 inline void move_cached(const std::uint32_t* from, std::size_t n, std::uint32_t add,
@@ -59,8 +58,7 @@ inline void move_words(const void* from, std::size_t n, std::uint32_t add, void*
   move(static_cast<const std::uint32_t*>(from), n, add, static_cast<std::uint32_t*>(to));
 }
 
-}  // namespace HWY_NAMESPACE
-}  // namespace mc::mesh
+}  // namespace mc::mesh::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -84,7 +84,7 @@ std::string output_format(std::string_view path, const SinkOptions& options) {
   if (path == "-") {
     unknown("<stdout>", "no format given", "add --to FORMAT");
   }
-  const std::string extension = extension_of(path);
+  std::string extension = extension_of(path);
   if (extension.empty()) {
     unknown(path, "no extension that names a format", "add one, or --to FORMAT");
   }

@@ -2,7 +2,6 @@
 #include "sink/partial_file.hpp"
 
 #include <fcntl.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <climits>
+#include <cstdio>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -39,8 +39,8 @@ std::string followed(const std::string& path) {
     if (n < 0) {
       return at;
     }
-    const std::string target(link.data(), static_cast<std::size_t>(n));
-    at = target.starts_with('/') ? target : folder_of(at) + "/" + target;
+    std::string target(link.data(), static_cast<std::size_t>(n));
+    at = target.starts_with('/') ? std::move(target) : folder_of(at).append("/").append(target);
   }
   errno = ELOOP;
   cannot("create", path);

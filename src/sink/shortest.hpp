@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -109,7 +110,8 @@ inline char* print_shortest(char* at, float x) {
   const int n = 9 - zeros;
   const int n_whole = n + d.exponent;  // digits before the point; below 1: zeros behind it
   if (n_whole <= 0) {
-    std::memcpy(at, "0.00", 4);
+    constexpr std::array<char, 4> kZeros{'0', '.', '0', '0'};
+    std::memcpy(at, kZeros.data(), kZeros.size());
     std::memcpy(at + 2 - n_whole, &digits, sizeof digits);
     return at + 2 - n_whole + n - cut;
   }

@@ -38,7 +38,9 @@ void encode_image(ImageKind kind, const std::string& place, [[maybe_unused]] con
                   [[maybe_unused]] Buffer<std::byte>& out) {
   const bool exr = kind == ImageKind::exr;
 #if MC_WITH_PNG || MC_WITH_EXR
-  if (exr ? MC_WITH_EXR : MC_WITH_PNG) return encoder(place)(kind, picture, slice, options, out);
+  if ((exr && MC_WITH_EXR) || (!exr && MC_WITH_PNG)) {
+    return encoder(place)(kind, picture, slice, options, out);
+  }
 #endif
   throw Error(ErrorKind::usage, place,
               std::string("this build cannot write ") + (exr ? "OpenEXR" : "PNG"),

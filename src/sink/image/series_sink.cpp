@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -69,7 +70,8 @@ Picture picture_of(const Volume& volume, const std::byte* plane, std::size_t row
 
 class SeriesSink final : public VolumeSink {
  public:
-  SeriesSink(const std::string& path, const SinkOptions& options) : name_(path), options_(options) {
+  SeriesSink(const std::string& path, SinkOptions options)
+      : name_(path), options_(std::move(options)) {
     add_file();  // a folder that cannot be written shows before the work
   }
 

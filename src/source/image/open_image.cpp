@@ -48,7 +48,7 @@ std::unique_ptr<ImageFile> open_image(Format format, const MappedFile& file) {
   const std::string& place = file.place();
 #if MC_WITH_PNG || MC_WITH_EXR
   const bool exr = format == Format::exr;
-  if (exr ? MC_WITH_EXR : MC_WITH_PNG) {
+  if ((exr && MC_WITH_EXR) || (!exr && MC_WITH_PNG)) {
     const ImageKind kind = exr ? ImageKind::exr : ImageKind::png;
     return std::unique_ptr<ImageFile>(opener(place)(kind, place, file.bytes()));
   }

@@ -97,7 +97,7 @@ std::string choose_channel(const OpenFile& first, const std::optional<std::strin
                            Progress& progress) {
   if (wanted) return *wanted;
   const ImagePart& part = first.image->parts().front();
-  const std::string name = part.channels[*channel_named(part, std::nullopt)].name;
+  std::string name = part.channels[*channel_named(part, std::nullopt)].name;
   if (part.channels.size() > 1) {
     progress.note(fmt::format("{}: channel {} of {}; choose by --channel", first.file.place(), name,
                               channel_list(part)));
@@ -172,6 +172,7 @@ void check_notes(const std::vector<Plane>& planes) {
 void check_complete(const std::vector<std::unique_ptr<OpenFile>>& files,
                     const std::vector<Plane>& planes) {
   std::vector<std::string> names;
+  names.reserve(files.size());
   for (const auto& file : files) names.push_back(file->file.place());
   if (const auto missing = missing_name(names)) refuse_gap(*missing, "this slice");
   if (planes.front().picture().note) check_notes(planes);

@@ -149,8 +149,9 @@ class Builder final : public nlohmann::json_sax<nlohmann::json> {
   [[nodiscard]] std::string word_at(std::size_t start) const {
     const std::string_view rest = faults_.text().substr(start);
     const std::size_t end = rest.find_first_of(" \t\r\n,:{}[]\"");
-    return std::string(rest.substr(
-        0, std::max<std::size_t>(end == rest.npos ? rest.size() : end, rest.empty() ? 0 : 1)));
+    return std::string(
+        rest.substr(0, std::max<std::size_t>(end == std::string_view::npos ? rest.size() : end,
+                                             rest.empty() ? 0 : 1)));
   }
 
   void explain(std::size_t start) const;

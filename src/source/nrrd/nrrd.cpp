@@ -177,8 +177,9 @@ std::string_view head_of(InputFile& file) {
   std::string_view head;
   for (std::size_t n = 4096; n <= 4 * NrrdFields::kMostBytes; n *= 4) {
     head = file.head(n);
-    const bool ends = head.find("\n\n") != head.npos || head.find("\n\r\n") != head.npos;
-    const bool lists = head.find("LIST") != head.npos;  // which may hold empty lines
+    const bool ends = head.find("\n\n") != std::string_view::npos ||
+                      head.find("\n\r\n") != std::string_view::npos;
+    const bool lists = head.find("LIST") != std::string_view::npos;  // which may hold empty lines
     if ((ends && !lists) || head.size() < n) break;
   }
   return head;

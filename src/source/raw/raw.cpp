@@ -87,8 +87,8 @@ MappedFile map_sized(InputFile input, std::uint64_t n_bytes, const std::vector<s
 /// Samples of a stream whose size is known.
 class RawSamples final : public SampleStream {
  public:
-  RawSamples(InputFile input, std::vector<std::int64_t> dims, const SourceOptions& options)
-      : place_(input.place()), dims_(std::move(dims)), options_(options) {
+  RawSamples(InputFile input, std::vector<std::int64_t> dims, SourceOptions options)
+      : place_(input.place()), dims_(std::move(dims)), options_(std::move(options)) {
     stream_ = std::move(input).stream();
     n_read_ = pass_over(*stream_, options_.skip_bytes);
   }

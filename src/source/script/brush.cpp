@@ -246,7 +246,7 @@ Falloff read_falloff(const JsonDocument& document, const JsonValue& value) {
   if (value.kind == JsonKind::string) {
     const auto place = place_among(document, value, "falloff", falloff_names());
     if (place && FalloffType(*place) == FalloffType::curve) {
-      document.fault(value, "needs its points: expected {\"type\": \"curve\", \"points\": ...}");
+      document.fault(value, R"(needs its points: expected {"type": "curve", "points": ...})");
     } else if (place) {
       falloff.type = FalloffType(*place);
     }

@@ -74,7 +74,7 @@ void read_header(const JsonDocument& document, ObjectReader& keys, ScriptContext
 
 std::string base_of(const JsonValue& root, const std::string& place) {
   namespace fs = std::filesystem;
-  const std::string own = place == "<stdin>" ? "script" : place;
+  std::string own = place == "<stdin>" ? "script" : place;
   const JsonValue* folder = root.find("folder");
   if (folder == nullptr || folder->kind != JsonKind::string) return own;
   return ((fs::path(own).parent_path() / folder->text) / fs::path(own).filename()).string();

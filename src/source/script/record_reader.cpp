@@ -227,7 +227,7 @@ void RecordReader::fill_blend(Edit& edit, ObjectReader& keys) {
   if (edit.blend == Blend::csg) {
     edit.smooth = holder(keys, "smooth").number("smooth", 0, kLengthOrZero);
   } else if (const JsonValue* at = keys.optional("smooth")) {
-    document_.fault(*at, "is the radius of a \"csg\" blend: expected \"blend\": \"csg\" with it");
+    document_.fault(*at, R"(is the radius of a "csg" blend: expected "blend": "csg" with it)");
   }
 }
 
@@ -267,7 +267,7 @@ void RecordReader::fill_rate(Edit& edit, ObjectReader& keys, const NumberRange& 
   const double steps = std::max(1.0, std::floor(duration / context_.header.dt + 0.5));
   if (steps > Script::kMostSteps) {
     return document_.fault(keys.value(), "takes more than " + std::to_string(Script::kMostSteps) +
-                                             " steps of \"dt\": expected a shorter \"duration\"");
+                                             R"( steps of "dt": expected a shorter "duration")");
   }
   edit.steps = static_cast<std::uint32_t>(steps);
   edit.strength = rate * context_.header.dt;
@@ -275,7 +275,7 @@ void RecordReader::fill_rate(Edit& edit, ObjectReader& keys, const NumberRange& 
     edit.strength = 1;
     document_.fault(
         keys.value(),
-        std::string("has a step of \"rate\" times \"dt\" out of range: expected ") + range.text);
+        std::string(R"(has a step of "rate" times "dt" out of range: expected )") + range.text);
   }
 }
 

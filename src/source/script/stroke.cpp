@@ -72,7 +72,7 @@ std::optional<BrushPath> read_path(const JsonDocument& document, const JsonValue
   path.spacing = keys.number("spacing", 0.25, kSpacing);
   if (const JsonValue* at = keys.value().find("spacing");
       at != nullptr && path.mode == PathMode::sweep) {
-    document.fault(*at, "is of no use to a sweep: expected none, or \"mode\": \"dabs\"");
+    document.fault(*at, R"(is of no use to a sweep: expected none, or "mode": "dabs")");
   }
   keys.finish();
   if (path.points.size() < 2) return std::nullopt;

@@ -263,7 +263,7 @@ void NodeLoader::take_inputs(Node& node, ObjectReader& keys) {
   const JsonValue* b = keys.optional("b");
   if ((list == nullptr) == (a == nullptr && b == nullptr) ||
       (list == nullptr && (a == nullptr || b == nullptr))) {
-    document_.fault(keys.value(), "expected either \"inputs\" or both \"a\" and \"b\"");
+    document_.fault(keys.value(), R"(expected either "inputs" or both "a" and "b")");
     return;
   }
   if (list == nullptr) {

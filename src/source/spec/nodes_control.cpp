@@ -96,7 +96,7 @@ void NodeLoader::fill_steps(Node& node, ObjectReader& keys) {
   put(node, 0, keys.number("step", 1, kPositiveFloat));
   put(node, 1, keys.number("offset", 0, kAnyFloat));
   if ((levels == nullptr) == (step == nullptr) || (levels != nullptr && has_offset)) {
-    document_.fault(keys.value(), "expected either \"levels\", or \"step\" and perhaps \"offset\"");
+    document_.fault(keys.value(), R"(expected either "levels", or "step" and perhaps "offset")");
     return;
   }
   if (as_points(document_, levels, "levels") == nullptr) {

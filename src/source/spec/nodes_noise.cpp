@@ -52,8 +52,7 @@ void NodeLoader::fill_unity(Node& node, ObjectReader& keys) {
     return;
   }
   if (x == nullptr || y == nullptr || has_dims || keys.value().find("frequency") != nullptr) {
-    document_.fault(keys.value(),
-                    "expected either both \"x\" and \"y\", or \"frequency\" and \"dims\"");
+    document_.fault(keys.value(), R"(expected either both "x" and "y", or "frequency" and "dims")");
     return;
   }
   node.inputs = {load(*x), load(*y)};

@@ -30,7 +30,7 @@ struct Extremes {
   void add(N v) {
     lo = v < lo ? v : lo;
     hi = v > hi ? v : hi;
-    if constexpr (std::is_floating_point_v<N>) n_nan += v != v ? 1U : 0U;
+    if constexpr (std::is_floating_point_v<N>) n_nan += std::isnan(v) ? 1U : 0U;
   }
 };
 
@@ -54,7 +54,7 @@ auto extremes_of(const std::byte* at, std::size_t n) {
       const N v = number_at<T, Swap>(at + (i + l) * sizeof(T));
       lo[l] = v < lo[l] ? v : lo[l];
       hi[l] = v > hi[l] ? v : hi[l];
-      if constexpr (std::is_floating_point_v<N>) n_nan[l] += v != v ? 1U : 0U;
+      if constexpr (std::is_floating_point_v<N>) n_nan[l] += std::isnan(v) ? 1U : 0U;
     }
   }
   Extremes<N> out;

@@ -45,10 +45,8 @@ StreamedPlanes::StreamedPlanes(Volume volume, std::unique_ptr<SampleStream> samp
   row_bytes_ = static_cast<std::size_t>(dims[0]) * sample_size(volume_.type);
   plane_bytes_ = row_bytes_ * static_cast<std::size_t>(dims[1]);
   pool_ = std::make_shared<Pool>(plane_bytes_);
-  passing_.reset(new Passing{.mutex = {},
-                             .samples = std::move(samples),
-                             .window = {},
-                             .range = SampleRange(volume_.type, volume_.endian)});
+  passing_ =
+      std::make_unique<Passing>(std::move(samples), SampleRange(volume_.type, volume_.endian));
 }
 
 StreamedPlanes::~StreamedPlanes() = default;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <utility>
 
 #include "mc/field.hpp"
 #include "source/mapped_planes.hpp"
@@ -49,6 +50,9 @@ class StreamedPlanes final : public SlabReader {
 
   /// What changes as planes pass by.
   struct Passing {
+    Passing(std::unique_ptr<SampleStream> of, SampleRange empty)
+        : samples(std::move(of)), range(std::move(empty)) {}
+
     std::mutex mutex;
     std::unique_ptr<SampleStream> samples;
     std::deque<Plane> window;  ///< planes [next - window.size(), next)

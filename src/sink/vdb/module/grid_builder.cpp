@@ -12,6 +12,7 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -132,8 +133,9 @@ bool TypedBuilder<T, Grid>::uniform(const Leaf& leaf) {
   if constexpr (std::is_same_v<Value, bool>) {
     return leaf.buffer() == typename Leaf::Buffer(leaf.getFirstValue());
   } else {
-    const Value* values = leaf.buffer().data();
-    return std::memcmp(values, values + 1, sizeof(Value) * (Leaf::SIZE - 1)) == 0;
+    const auto bytes = std::as_bytes(std::span(leaf.buffer().data(), std::size_t{Leaf::SIZE}));
+    const std::size_t step = sizeof(Value);
+    return std::memcmp(bytes.data(), bytes.data() + step, bytes.size() - step) == 0;
   }
 }
 
@@ -282,7 +284,7 @@ openvdb::GridBase::Ptr TypedBuilder<T, Grid>::finish() {
     if (next_k_ != dims_[2]) {
       throw Error(ErrorKind::internal, volume_.name, "the volume was not written to its end");
     }
-    const Value outside = stored_outside<Value>(outside_value(volume_, extremes_), as_half_);
+    const auto outside = stored_outside<Value>(outside_value(volume_, extremes_), as_half_);
     grid_->tree().root().setBackground(outside, /*updateChildNodes=*/true);
     openvdb::tools::prune(grid_->tree());
   }

@@ -13,6 +13,7 @@
 #include <ostream>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "field/volume_names.hpp"
 #include "sink/vdb/module/grid_builder.hpp"
@@ -112,7 +113,7 @@ class StreamArchive final : public openvdb::io::Archive {
 
 class OpenVdbWriter final : public VdbWriter {
  public:
-  explicit OpenVdbWriter(const std::string& place) : place_(place) { openvdb::initialize(); }
+  explicit OpenVdbWriter(std::string place) : place_(std::move(place)) { openvdb::initialize(); }
 
   void begin(const Volume& volume) override {
     volume_ = volume;

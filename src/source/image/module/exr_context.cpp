@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "field/volume_names.hpp"
 #include "mc/base.hpp"
@@ -71,8 +72,8 @@ Affine affine_of(const double* rows) {
 
 }  // namespace
 
-ExrContext::ExrContext(const std::string& place, std::span<const std::byte> bytes)
-    : place_(place), bytes_(bytes) {
+ExrContext::ExrContext(std::string place, std::span<const std::byte> bytes)
+    : place_(std::move(place)), bytes_(bytes) {
   exr_context_initializer_t start = EXR_DEFAULT_CONTEXT_INITIALIZER;
   start.error_handler_fn = note_message;
   start.user_data = &bytes_;

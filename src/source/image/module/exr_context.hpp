@@ -15,7 +15,7 @@ namespace mc::source {
 /// An EXR file in memory, opened by OpenEXR's core library, whose errors come out as Error(input).
 class ExrContext {
  public:
-  ExrContext(const std::string& place, std::span<const std::byte> bytes);
+  ExrContext(std::string place, std::span<const std::byte> bytes);
   ~ExrContext();
   ExrContext(const ExrContext&) = delete;
   ExrContext& operator=(const ExrContext&) = delete;

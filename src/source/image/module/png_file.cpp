@@ -9,6 +9,7 @@
 #include <csetjmp>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "base/checked.hpp"
 #include "mc/base.hpp"
@@ -28,8 +29,8 @@ constexpr std::uint64_t kMostInflation = 1032;
 
 class Reading {
  public:
-  Reading(const std::string& place, std::span<const std::byte> bytes)
-      : place_(place), left_(bytes) {
+  Reading(std::string place, std::span<const std::byte> bytes)
+      : place_(std::move(place)), left_(bytes) {
     png_ = ::png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &Reading::fail, &Reading::ignore);
     info_ = png_ == nullptr ? nullptr : ::png_create_info_struct(png_);
     if (info_ == nullptr) {
@@ -125,8 +126,8 @@ Shape prepare(Reading& reading, const std::string& place, std::size_t file_bytes
 
 class PngFile final : public ImageFile {
  public:
-  PngFile(const std::string& place, std::span<const std::byte> bytes)
-      : place_(place), bytes_(bytes) {
+  PngFile(std::string place, std::span<const std::byte> bytes)
+      : place_(std::move(place)), bytes_(bytes) {
     Reading reading(place_, bytes_);
     const Shape shape = prepare(reading, place_, bytes_.size());
     constexpr std::string_view kNames[] = {"Y", "YA", "RGB", "RGBA"};
