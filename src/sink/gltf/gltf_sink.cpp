@@ -11,8 +11,8 @@
 #include <optional>
 #include <vector>
 
+#include "sink/gltf/gltf_bins.hpp"
 #include "sink/gltf/gltf_json.hpp"
-#include "sink/gltf/gltf_parts.hpp"
 #include "sink/gltf/palette.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
@@ -35,30 +35,6 @@ constexpr std::uint64_t kMostVertices = 0xFFFFFFFF;  // index 0xFFFFFFFF is rese
 constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
 
 std::uint64_t aligned(std::uint64_t n_bytes) { return (n_bytes + 3) / 4 * 4; }
-
-std::string percent_encoded(std::string_view name) {
-  constexpr std::string_view kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
-  constexpr std::string_view kHex = "0123456789ABCDEF";
-  std::string uri;
-  for (const char c : name) {
-    if (kPlain.find(c) != std::string_view::npos) {
-      uri += c;
-    } else {
-      const auto byte = static_cast<unsigned char>(c);
-      uri.append({'%', kHex[byte >> 4], kHex[byte & 15]});
-    }
-  }
-  return uri;
-}
-
-/// "a/b.gltf" -> "a/b.bin", then "a/b-2.bin" ...; another extension stays and ".bin" is added.
-std::string bin_path(const std::string& path, std::size_t n_before) {
-  constexpr std::string_view kExtension = ".gltf";
-  const std::string number = n_before == 0 ? "" : "-" + std::to_string(n_before + 1);
-  return (path.ends_with(kExtension) ? path.substr(0, path.size() - kExtension.size()) : path) +
-         number + ".bin";
-}
 
 /// 32 bits, little endian.
 std::string word(std::uint64_t value) {
@@ -97,9 +73,6 @@ class GltfSink final : public MeshSink {
   void shorten_spooled_indices();
   void finish_glb();
   void finish_gltf();
-  OutputFile& add_bin();
-  void spread_over_bins();
-  void note_parts() const;
   void pad_body();
   /// The file that the buffer goes into.
   [[nodiscard]] FileWriter& body_file();
@@ -113,13 +86,12 @@ class GltfSink final : public MeshSink {
   SinkOptions options_;
   bool is_glb_;
   std::uint64_t most_bytes_;
-  OutputFile main_;                                // the GLB, or the JSON
-  std::vector<std::unique_ptr<OutputFile>> bins_;  // glTF only
-  std::optional<SpoolFile> body_;                  // the buffer, for a GLB to a stream
-  std::uint64_t body_at_ = 0;                      // where the buffer starts in its file
+  OutputFile main_;                // the GLB, or the JSON
+  std::optional<BinFiles> bins_;   // of a glTF
+  std::optional<SpoolFile> body_;  // the buffer, for a GLB to a stream
+  std::uint64_t body_at_ = 0;      // where the buffer starts in its file
   std::uint64_t json_room_ = 0;
   std::vector<GltfObject> objects_;
-  std::uint64_t n_repeated_ = 0;  // vertices of parts beyond those of the objects
   MeshObject object_;
   ObjectCounts counts_;
   std::optional<SpoolFile> index_spool_;  // u32; unless their place and type are known
@@ -138,20 +110,15 @@ GltfSink::GltfSink(const std::string& path, const SinkOptions& options, Form for
       throw Error(ErrorKind::usage, main_.place(),
                   "glTF is two files and cannot be written to a stream", "use --to glb");
     }
-    add_bin();
+    bins_.emplace(main_.place(), options_, most_bytes_);
   } else if (!main_.seekable()) {
     body_.emplace(main_);
   }
 }
 
-OutputFile& GltfSink::add_bin() {
-  bins_.push_back(std::make_unique<OutputFile>(bin_path(main_.place(), bins_.size()),
-                                               output_options(options_, true)));
-  return *bins_.back();
-}
-
 FileWriter& GltfSink::body_file() {
-  return body_ ? body_->writer() : (is_glb_ ? main_ : *bins_.back()).writer();
+  if (bins_) return bins_->writer();
+  return body_ ? body_->writer() : main_.writer();
 }
 
 std::uint64_t GltfSink::body_size() { return body_file().size() - body_at_; }
@@ -213,7 +180,7 @@ void GltfSink::begin_object(const MeshObject& object) {
   }
   pad_body();
   made.vertices_at = body_size();
-  made.buffer = is_glb_ ? 0 : bins_.size() - 1;
+  made.buffer = bins_ ? bins_->last() : 0;
   objects_.push_back(made);
   check_limits({object.n_vertices.value_or(0), object.n_triangles.value_or(0)});
   vertices_.emplace(body_file(), body_file().size());
@@ -328,46 +295,10 @@ void GltfSink::end_object(const MeshTotals& /*totals*/) {
   if (index_spool_) {
     take_spooled_indices();
   }
-  if (!is_glb_ && body_size() > most_bytes_) {
-    spread_over_bins();
-  }
-}
-
-/// The last object does not fit into the file it was written to: it goes into the next, whole if it
-/// fits there, else in parts of a file each.
-void GltfSink::spread_over_bins() {
-  const GltfObject whole = objects_.back();
-  objects_.pop_back();
-  std::unique_ptr<OutputFile> from;
-  if (whole.vertices_at == 0) {  // its first part takes its place, by another partial file
-    from = std::move(bins_.back());
-    bins_.pop_back();
-  }
-  OutputFile& source = from ? *from : *bins_.back();
-  source.writer().flush();
-  const auto open = [&]() -> FileWriter& {
-    if (!bins_.empty() && bins_.back().get() != &source) {
-      bins_.back()->close();  // there may be more of them than a process may have open
-    }
-    return add_bin().writer();
-  };
-  cut_into_parts(source.writer(), whole, most_bytes_, open, [&](const GltfObject& part) {
-    objects_.push_back(part);
-    objects_.back().buffer = bins_.size() - 1;
-    n_repeated_ += part.n_vertices;
-  });
-  n_repeated_ -= whole.n_vertices;
-  if (!from) {
-    source.writer().truncate(whole.vertices_at);
-  }
-}
-
-void GltfSink::note_parts() const {
-  if (bins_.size() > 1 && options_.progress != nullptr) {
-    options_.progress->warn(main_.place() + ": " + std::to_string(bins_.size()) +
-                            " .bin files, since one holds less than 4 GiB; vertices on their "
-                            "seams are there more than once: " +
-                            std::to_string(n_repeated_) + " more than the mesh has");
+  if (bins_ && body_size() > most_bytes_) {
+    const std::vector<GltfObject> parts = bins_->spread(object);
+    objects_.pop_back();
+    objects_.insert(objects_.end(), parts.begin(), parts.end());
   }
 }
 
@@ -402,21 +333,11 @@ void GltfSink::finish_glb() {
 }
 
 void GltfSink::finish_gltf() {
-  std::vector<GltfBuffer> buffers;
-  std::vector<OutputFile*> files;
-  for (const auto& bin : bins_) {
-    const std::string& path = bin->place();
-    buffers.push_back({bin->size(), percent_encoded(path.substr(path.rfind('/') + 1))});
-    files.push_back(bin.get());
-  }
-  main_.append(gltf_json(objects_, buffers, options_.provenance));
-  if (bins_.front()->size() == 0) {
-    bins_.clear();
-    files.clear();
-  }
+  main_.append(gltf_json(objects_, bins_->buffers(), options_.provenance));
+  std::vector<OutputFile*> files = bins_->files();
   files.push_back(&main_);
   OutputFile::commit_all(files);
-  note_parts();
+  bins_->note_parts();
 }
 
 void GltfSink::finish() {
