@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "base/vectors.hpp"
 #include "edit/brush.hpp"
-#include "edit/vectors.hpp"
 
 // Paths in dabs and sweeps, by arc length.
 
@@ -23,7 +23,7 @@ class PathWalk {
  public:
   explicit PathWalk(const std::vector<Vec3>& points) : points_(points) {
     for (std::size_t n = 1; n < points.size(); ++n) {
-      ends_.push_back(ends_.back() + edit::length(minus(points[n], points[n - 1])));
+      ends_.push_back(ends_.back() + mc::length(minus(points[n], points[n - 1])));
     }
   }
   [[nodiscard]] double length() const { return ends_.back(); }

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/vectors.hpp"
 #include "edit/combine.hpp"
-#include "edit/vectors.hpp"
 #include "graph/float_math.hpp"
 
 // What operations see around a sample. Every sum has one order, so that the bits do not depend on

@@ -3,10 +3,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "base/vectors.hpp"
 #include "edit/brush.hpp"
 #include "edit/brush_path.hpp"
 #include "edit/symmetry.hpp"
-#include "edit/vectors.hpp"
 
 // Where a brush works: its path in dabs or as a sweep, copied by symmetry, each position with the
 // samples that it can reach.

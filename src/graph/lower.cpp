@@ -4,19 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/vectors.hpp"
+
 namespace mc::graph {
 
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
-Vec3 scaled(const Vec3& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// The slope at each point: 0 at the ends and at turns, else the harmonic mean of its neighbours,
 /// weighted by the intervals' widths.
@@ -58,7 +50,7 @@ Ends ends_of(std::span<const float> list) {
   const Vec3 first{list[0], list[1], list[2]};
   const Vec3 last{list[3], list[4], list[5]};
   const Vec3 way = minus(last, first);
-  const double length = std::sqrt(dot(way, way));
+  const double length = mc::length(way);
   if (length > std::abs(double{list[6]} - double{list[7]})) {
     return {first, way, length, list[6], list[7]};
   }
@@ -76,13 +68,13 @@ Numbers capsule_numbers(const Ends& ends) {
 
 /// World points into the frame with this origin and second axis.
 std::vector<float> frame_along(const Vec3& origin, const Vec3& way) {
-  const Vec3 along = scaled(way, 1 / std::sqrt(dot(way, way)));
+  const Vec3 along = scaled(way, 1 / length(way));
   const auto smaller = [](double a, double b) { return std::abs(a) < std::abs(b); };
   const auto least = std::min_element(along.begin(), along.end(), smaller) - along.begin();
   Vec3 axis{};
   axis[static_cast<std::size_t>(least)] = 1;
   const Vec3 upright = minus(axis, scaled(along, dot(axis, along)));
-  const Vec3 across = scaled(upright, 1 / std::sqrt(dot(upright, upright)));
+  const Vec3 across = scaled(upright, 1 / length(upright));
   std::vector<float> matrix;
   for (const Vec3& row : {across, along, cross(across, along)}) {
     for (const double v : row) {

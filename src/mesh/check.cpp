@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/vectors.hpp"
 #include "mc/mesh.hpp"
 #include "mesh/position_index.hpp"
 
@@ -31,14 +32,6 @@ using Triangle = std::array<std::uint64_t, 3>;
 bool finite(const Vec3& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 bool in_range(const Triangle& t, std::size_t n_vertices) {
   return t[0] < n_vertices && t[1] < n_vertices && t[2] < n_vertices;
@@ -66,10 +59,9 @@ bool equal_products(double a, double b, double c, double d) {
 
 /// Whether p, q, r (finite) lie on one line, where rounding or range could hide the answer.
 bool collinear_exactly(const Vec3& p, const Vec3& q, const Vec3& r) {
-  const auto quarter = [](const Vec3& v) { return Vec3{v[0] / 4, v[1] / 4, v[2] / 4}; };
   const bool huge = !finite(minus(q, p)) || !finite(minus(r, p));
-  Vec3 a = huge ? minus(quarter(q), quarter(p)) : minus(q, p);
-  Vec3 b = huge ? minus(quarter(r), quarter(p)) : minus(r, p);
+  Vec3 a = huge ? minus(scaled(q, 0.25), scaled(p, 0.25)) : minus(q, p);
+  Vec3 b = huge ? minus(scaled(r, 0.25), scaled(p, 0.25)) : minus(r, p);
   normalise(a);
   normalise(b);
   return equal_products(a[1], b[2], a[2], b[1]) && equal_products(a[2], b[0], a[0], b[2]) &&
@@ -150,7 +142,7 @@ Measure measure(const MeshSoup& mesh, std::span<const Triangle> triangles, const
     }
     sum.degenerate += has_zero_area(p, q, r) ? 1 : 0;
     const Vec3 normal = cross(minus(q, p), minus(r, p));
-    sum.area += std::sqrt(dot(normal, normal)) / 2;
+    sum.area += length(normal) / 2;
     sum.volume += dot(minus(p, centre), normal) / 6;
   }
   return sum;

@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "base/sine_cosine.hpp"
+#include "base/vectors.hpp"
 #include "mc/field.hpp"
 
 namespace mc::source {
 
 namespace {
-
-double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
 
 /// The angle is reduced in degrees, which is exact.
 base::SineCosine sine_cosine(double degrees) {
