@@ -8,8 +8,7 @@ namespace mc::extraction {
 
 namespace {
 
-constexpr std::int32_t kNodeSamples = 64;                  // a node is 8 blocks of 8 samples wide
-constexpr std::uint64_t kColumn0 = 0x0101010101010101ULL;  // x = 0 in every row
+constexpr std::int32_t kNodeSamples = 64;  // a node is 8 blocks of 8 samples wide
 
 std::uint64_t hash_of(const Index3& p) {
   std::uint64_t h = static_cast<std::uint32_t>(p[0]) * 0x9E3779B97F4A7C15ULL;
@@ -20,30 +19,6 @@ std::uint64_t hash_of(const Index3& p) {
 
 Index3 plus(const Index3& p, std::int32_t x, std::int32_t y, std::int32_t z) {
   return {p[0] + x, p[1] + y, p[2] + z};
-}
-
-/// Word and bit of a block in its node.
-struct BitPlace {
-  std::size_t word;
-  unsigned bit;
-};
-BitPlace place_in_node(const Index3& block) {
-  return {static_cast<std::size_t>(block[2] & 7),
-          static_cast<unsigned>((block[1] & 7) * 8 + (block[0] & 7))};
-}
-bool test(const Mask512& mask, BitPlace p) { return ((mask[p.word] >> p.bit) & 1U) != 0; }
-void set(Mask512& mask, BitPlace p) { mask[p.word] |= std::uint64_t{1} << p.bit; }
-
-/// Ones of a mask before a place.
-std::uint32_t rank_in(const Mask512& mask, BitPlace p) {
-  int rank = std::popcount(mask[p.word] & ((std::uint64_t{1} << p.bit) - 1));
-  for (std::size_t w = 0; w < p.word; ++w) rank += std::popcount(mask[w]);
-  return static_cast<std::uint32_t>(rank);
-}
-std::uint32_t ones_in(const Mask512& mask) {
-  int n = 0;
-  for (const std::uint64_t word : mask) n += std::popcount(word);
-  return static_cast<std::uint32_t>(n);
 }
 
 /// Tiles that are whole nodes are not cut into blocks.
@@ -61,43 +36,10 @@ void for_each_block(const Tile& tile, F&& f) {
   }
 }
 
-Mask512 operator|(const Mask512& a, const Mask512& b) {
-  Mask512 out;
-  for (std::size_t w = 0; w < 8; ++w) out[w] = a[w] | b[w];
-  return out;
-}
-
-/// Bits of the neighbours at +x, +y, +z: `next` is the node on that side.
-Mask512 from_x(const Mask512& m, const Mask512& next) {
-  Mask512 out;
-  for (std::size_t w = 0; w < 8; ++w) {
-    out[w] = ((m[w] & ~kColumn0) >> 1) | ((next[w] & kColumn0) << 7);
-  }
-  return out;
-}
-Mask512 from_y(const Mask512& m, const Mask512& next) {
-  Mask512 out;
-  for (std::size_t w = 0; w < 8; ++w) out[w] = (m[w] >> 8) | (next[w] << 56);
-  return out;
-}
-Mask512 from_z(const Mask512& m, const Mask512& next) {
-  return {m[1], m[2], m[3], m[4], m[5], m[6], m[7], next[0]};
-}
-
 bool above(const Scalar& value, const Threshold& threshold) {
   return field::visit_type(threshold.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
     return is_above(value.as<T>(), threshold);
   });
-}
-
-/// For each block: whether any of the 2x2x2 blocks from it upwards is set. m[x + 2y + 4z] are
-/// nodes.
-Mask512 any_upwards(const std::array<Mask512, 8>& m) {
-  std::array<Mask512, 4> x;
-  for (std::size_t n = 0; n < 4; ++n) x[n] = m[2 * n] | from_x(m[2 * n], m[2 * n + 1]);
-  const Mask512 y0 = x[0] | from_y(x[0], x[1]);
-  const Mask512 y1 = x[2] | from_y(x[2], x[3]);
-  return y0 | from_z(y0, y1);
 }
 
 }  // namespace

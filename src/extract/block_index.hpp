@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "extract/block_masks.hpp"
 #include "extract/threshold.hpp"
 #include "mc/field.hpp"
 
@@ -15,9 +16,6 @@
 // blocks which can hold a surface are found by word arithmetic too.
 
 namespace mc::extraction {
-
-/// 512 bits for 8x8x8 things: word z, bit y*8 + x.
-using Mask512 = std::array<std::uint64_t, 8>;
 
 /// The block (or the node of blocks) that holds an index: division by 8, rounding down.
 inline Index3 block_of(const Index3& p) { return {p[0] >> 3, p[1] >> 3, p[2] >> 3}; }

@@ -11,6 +11,7 @@
 
 #include "field/order_key.hpp"
 #include "field/otsu.hpp"
+#include "field/radix_selection.hpp"
 #include "field/sample_scan.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
@@ -266,89 +267,17 @@ double binned_otsu(const VolumeReader& reader, double low, double high, const Wa
   return split ? binning.upper_edge(*split) : high;
 }
 
-constexpr unsigned kDigitBits = 16;
-constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-/// Percentiles that share their passes; bounds the counters to 8 MiB a thread.
-constexpr std::size_t kGroup = 16;
-
-/// How often each digit follows each of the wanted prefixes of the keys.
-template <class T>
-class DigitCounts {
- public:
-  DigitCounts(const std::vector<std::uint64_t>& prefixes, unsigned shift)
-      : prefixes_(&prefixes), shift_(shift), counts_(prefixes.size() * kDigits) {}
-
-  template <bool Swap>
-  void row(const std::byte* at, std::size_t n) {
-    for (std::size_t i = 0; i < n; ++i) weighted(load_sample<T, Swap>(at + i * sizeof(T)), 1);
-  }
-  void weighted(T value, std::uint64_t n) {
-    if (field::is_nan(value)) return;
-    const std::uint64_t key = order_key(value) >> shift_;
-    // Two shifts, since the prefix of the first digit has no bits at all.
-    const std::uint64_t prefix = key >> (kDigitBits - 1) >> 1;
-    for (std::size_t p = 0; p < prefixes_->size(); ++p) {
-      if ((*prefixes_)[p] == prefix) counts_[p * kDigits + key % kDigits] += n;
-    }
-  }
-  void end_part(std::size_t /*part*/) {}
-
-  void add_to(std::vector<std::uint64_t>& sum) const {
-    for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += counts_[n];
-  }
-
- private:
-  const std::vector<std::uint64_t>* prefixes_;
-  unsigned shift_;
-  std::vector<std::uint64_t> counts_;
-};
-
-/// One wanted sample: the digits of its key that are known, and its rank among those that share
-/// them.
-struct Target {
-  std::uint64_t prefix = 0;
-  std::uint64_t rank = 0;
-};
-
-template <class T>
-void find_digit(const VolumeReader& reader, unsigned shift, std::span<Target> targets,
-                const Watch& watch) {
-  std::vector<std::uint64_t> prefixes;
-  for (const Target& target : targets) prefixes.push_back(target.prefix);
-  std::sort(prefixes.begin(), prefixes.end());
-  prefixes.erase(std::unique(prefixes.begin(), prefixes.end()), prefixes.end());
-  std::vector<std::uint64_t> counts(prefixes.size() * kDigits);
-  const auto make = [&] { return DigitCounts<T>(prefixes, shift); };
-  for (const auto& acc : field::scan<T>(reader, watch, counts.size() * sizeof(counts[0]), make))
-    acc.add_to(counts);
-  for (Target& target : targets) {
-    const auto at = std::lower_bound(prefixes.begin(), prefixes.end(), target.prefix);
-    const std::size_t first = static_cast<std::size_t>(at - prefixes.begin()) * kDigits;
-    std::size_t digit = 0;
-    while (digit + 1 < kDigits && target.rank >= counts[first + digit]) {
-      target.rank -= counts[first + digit++];
-    }
-    target.prefix = target.prefix << kDigitBits | digit;
-  }
-}
-
 template <class T>
 std::vector<double> selected(const VolumeReader& reader, std::span<const double> percentiles,
                              std::uint64_t n_numbers, const Watch& watch) {
-  std::vector<double> out(percentiles.size(), kNone);
-  for (std::size_t first = 0; n_numbers > 0 && first < out.size(); first += kGroup) {
-    std::vector<Target> targets;
-    for (std::size_t n = first; n < std::min(out.size(), first + kGroup); ++n) {
-      targets.push_back({0, rank_of(percentiles[n], n_numbers)});
-    }
-    for (unsigned shift = 8 * sizeof(T); shift > 0;) {
-      shift -= kDigitBits;
-      find_digit<T>(reader, shift, targets, watch);
-    }
-    for (std::size_t n = 0; n < targets.size(); ++n) {
-      out[first + n] =
-          value_of(field::sample_of_key<T>(static_cast<OrderKey<T>>(targets[n].prefix)));
-    }
+  if (n_numbers == 0) return std::vector<double>(percentiles.size(), kNone);
+  std::vector<std::uint64_t> ranks;
+  ranks.reserve(percentiles.size());
+  for (const double p : percentiles) ranks.push_back(rank_of(p, n_numbers));
+  std::vector<double> out;
+  out.reserve(ranks.size());
+  for (const T sample : field::samples_of_ranks<T>(reader, ranks, watch)) {
+    out.push_back(value_of(sample));
   }
   return out;
 }
@@ -384,9 +313,7 @@ FieldStatistics measure_wide(const VolumeReader& reader, std::span<const double>
 
 /// How often the samples are read, for the progress.
 std::uint64_t n_passes(std::size_t sample_bytes, std::size_t n_percentiles) {
-  if (sample_bytes <= 2) return 1;
-  const std::size_t n_groups = (n_percentiles + kGroup - 1) / kGroup;
-  return 2 + n_groups * sample_bytes * 8 / kDigitBits;
+  return sample_bytes <= 2 ? 1 : 2 + field::selection_passes(sample_bytes, n_percentiles);
 }
 
 }  // namespace
