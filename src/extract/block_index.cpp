@@ -60,7 +60,7 @@ std::uint32_t BlockIndex::constant_of(const Scalar& value, const Threshold& thre
 void BlockIndex::add_leaves(std::span<const Index3> origins) {
   for (const Index3& origin : origins) {
     const Index3 block = block_of(origin);
-    set(nodes_[node_at(block_of(block))].leaf, place_in_node(block));
+    set(nodes_[node_at(block_of(block))].leaf, bit_place(block));
   }
   const auto number_nodes = [this] {
     std::uint32_t n = 0;
@@ -106,7 +106,7 @@ void BlockIndex::number_tiles(std::span<const Tile> tiles) {
     for_each_block(tile, [&](const Index3& block) {
       const Node& node = nodes_[node_at(block_of(block))];
       if (node.constant != kVarious) return;
-      tile_entries_[node.tiles + rank_in(node.tile, place_in_node(block))] = constant;
+      tile_entries_[node.tiles + rank_in(node.tile, bit_place(block))] = constant;
     });
   }
 }
@@ -125,8 +125,8 @@ void BlockIndex::add_tile(const Tile& tile, std::uint32_t constant) {
     Node& node = nodes_[node_at(block_of(block))];
     const bool same = node.constant == kNoTile || node.constant == constant;
     node.constant = same ? constant : kVarious;
-    set(node.tile, place_in_node(block));
-    if (odd) set(node.odd, place_in_node(block));
+    set(node.tile, bit_place(block));
+    if (odd) set(node.odd, bit_place(block));
   });
 }
 
@@ -181,7 +181,7 @@ Block BlockIndex::at(const Index3& block) const {
   const auto constant = [&](std::uint32_t n) {
     return Block{Block::kConstant, constants_[n].value, constants_[n].above};
   };
-  const BitPlace p = place_in_node(block);
+  const BitPlace p = bit_place(block);
   if (const Node* node = find(block_of(block)); node != nullptr) {
     if (test(node->leaf, p)) {
       const std::uint64_t before = node->leaf[p.word] & ((std::uint64_t{1} << p.bit) - 1);

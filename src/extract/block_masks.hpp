@@ -8,7 +8,8 @@
 
 #include "mc/base.hpp"
 
-// Sets of the 8x8x8 blocks of a node, and what lies beside them, by word arithmetic.
+// Sets of 8x8x8 things, such as the blocks of a node, and what lies beside them, by word
+// arithmetic.
 
 namespace mc::extraction {
 
@@ -17,14 +18,13 @@ using Mask512 = std::array<std::uint64_t, 8>;
 
 inline constexpr std::uint64_t kColumn0 = 0x0101010101010101ULL;  ///< x = 0 in every row
 
-/// Word and bit of a block in its node.
+/// Word and bit of a block in its node, or of a sample in its block.
 struct BitPlace {
   std::size_t word;
   unsigned bit;
 };
-[[nodiscard]] inline BitPlace place_in_node(const Index3& block) {
-  return {static_cast<std::size_t>(block[2] & 7),
-          static_cast<unsigned>((block[1] & 7) * 8 + (block[0] & 7))};
+[[nodiscard]] inline BitPlace bit_place(const Index3& p) {
+  return {static_cast<std::size_t>(p[2] & 7), static_cast<unsigned>((p[1] & 7) * 8 + (p[0] & 7))};
 }
 [[nodiscard]] inline bool test(const Mask512& mask, BitPlace p) {
   return ((mask[p.word] >> p.bit) & 1U) != 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "extract/bit_row.hpp"
+#include "extract/block_masks.hpp"
 #include "extract/block_sampler.hpp"
 
 namespace mc::extraction {
@@ -98,11 +99,9 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
                                               const Mask512& cells) const {
   const IndexBox& box = plan_.box();
   const Index3 o = origin_of(block);
-  const auto bit = [&](std::int32_t i, std::int32_t j, std::int32_t k) {
-    const std::int32_t n = (i >> 3) + 2 * (j >> 3) + 4 * (k >> 3);
-    return (*above[static_cast<std::size_t>(n)])[static_cast<std::size_t>(k & 7)] >>
-               ((j & 7) * 8 + (i & 7)) &
-           1U;
+  const auto bit = [&](const Index3& p) {
+    const std::int32_t n = (p[0] >> 3) + 2 * (p[1] >> 3) + 4 * (p[2] >> 3);
+    return std::uint64_t{test(*above[static_cast<std::size_t>(n)], bit_place(p))};
   };
   std::uint64_t crossings = 0;
   for (std::int32_t k = 0; k < 8; ++k) {
@@ -120,7 +119,7 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
             p[a] += side;
             p[u] += c & 1;
             p[v] += c >> 1;
-            corner[static_cast<std::size_t>(c)] = bit(p[0], p[1], p[2]);
+            corner[static_cast<std::size_t>(c)] = bit(p);
           }
           crossings += (corner[0] ^ corner[1]) + (corner[2] ^ corner[3]) + (corner[0] ^ corner[2]) +
                        (corner[1] ^ corner[3]);

@@ -11,7 +11,8 @@
 
 // libFuzzer harness over valid mc-volume documents: bytes choose from the grammar of all nodes, so
 // that every input gets past the loader. What differs between SIMD targets is a finding. A campaign
-// compares two targets an input, which its bytes choose; replays take all of them.
+// compares two targets an input, which its bytes choose; the program that replays takes all of
+// them.
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::vector<std::string> all = mc::extraction::simd_targets();
