@@ -34,7 +34,7 @@ EditSession::EditSession(const EditArgs& args, EditPlan plan, Invocation& invoca
     : args_(args),
       plan_(std::move(plan)),
       invocation_(invocation),
-      report_(plan_.report),
+      report_(plan_.report, invocation.stop.get_token()),
       script_(plan_.script, {.left = source::SpecNesting::most_samples(plan_.surface.memory_bytes),
                              .root = plan_.surface.source.root}) {
   if (is_heard() || plan_.surface.common.verbose) peak_.emplace();

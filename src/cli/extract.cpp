@@ -28,7 +28,7 @@ int report_usage(const ExtractArgs& args, Invocation& invocation, const Failure&
   report.output = args.output;
   const bool clash = args.report && args.report == args.output;
   if (args.report && !args.report->empty() && !clash) {
-    ReportFile file(args.report);
+    ReportFile file(args.report, invocation.stop.get_token());
     file.add_line(to_json(report));
     file.finish();
   }
@@ -53,7 +53,7 @@ int run_extract(Invocation& invocation, std::vector<std::string> words) {
   invocation.console.configure(plan.common);
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
-  ReportFile file(plan.report);
+  ReportFile file(plan.report, invocation.stop.get_token());
   const int status = run_jobs(plan, invocation, file);
   file.finish();
   return status;

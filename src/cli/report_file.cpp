@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "cli/report_file.hpp"
 
+#include <utility>
+
 #include "cli/invocation.hpp"
 
 namespace mc::cli {
 
-ReportFile::ReportFile(const std::optional<std::string>& path) {
+ReportFile::ReportFile(const std::optional<std::string>& path, std::stop_token stop)
+    : stop_(std::move(stop)) {
   if (!path) return;
   to_stdout_ = *path == "-";
   if (!to_stdout_) {
@@ -21,7 +24,7 @@ void ReportFile::add_line(std::string line) {
 }
 
 void ReportFile::finish() {
-  if (file_) file_->commit();
+  if (file_ && !stop_.stop_requested()) file_->commit();
 }
 
 }  // namespace mc::cli

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "sink/output_file.hpp"
@@ -15,13 +16,15 @@ class ReportFile {
  public:
   /// Without a path nothing is written. An existing file is replaced: a report is made anew by
   /// every run. Errors   output: the file cannot be made; found here, before the work.
-  explicit ReportFile(const std::optional<std::string>& path);
+  ReportFile(const std::optional<std::string>& path, std::stop_token stop);
 
   void add_line(std::string line);
-  /// Puts the file under its name.
+  /// Puts the file under its name. Where the run is asked to stop, which may have cut it short
+  /// before its first line, there is no file, and an old one stays.
   void finish();
 
  private:
+  std::stop_token stop_;
   bool to_stdout_ = false;
   std::unique_ptr<sink::OutputFile> file_;
 };
