@@ -58,7 +58,7 @@ Formatted any_binary(bool f32_moves) {
   return most;
 }
 
-/// What a stream's planes need that a file's do not: `kept` was copied here.
+/// Planes that were kept, as extract would take them from the stream.
 class PassingPlanes final : public SlabReader {
  public:
   explicit PassingPlanes(const SlabReader& kept) : kept_(kept) {}
@@ -70,20 +70,6 @@ class PassingPlanes final : public SlabReader {
  private:
   const SlabReader& kept_;
 };
-
-/// What a stream of the samples of `reader` needs in place of `need`.
-MemoryNeed as_stream(MemoryNeed need, const VolumeReader& reader, const RunOptions& options) {
-  const SlabReader& kept = *std::get<std::unique_ptr<SlabReader>>(reader);
-  const MemoryNeed plain = memory_needed(reader, options);
-  const MemoryNeed passing = memory_needed(std::make_unique<PassingPlanes>(kept), options);
-  const auto more = [](std::uint64_t now, std::uint64_t before) {
-    return now > before ? now - before : 0;
-  };
-  need.most = std::min(need.budget, need.most + more(passing.most, plain.most));
-  need.expected = std::min(need.most, need.expected + more(passing.expected, plain.expected));
-  need.least = std::max(need.least, passing.least);
-  return need;
-}
 
 /// Of a mesh at the suggested iso by mc-extract(1), in any binary format.
 MemoryNeed estimate(const VolumeReader& reader, double iso, bool passes_by, const Wish& wish,
@@ -99,8 +85,10 @@ MemoryNeed estimate(const VolumeReader& reader, double iso, bool passes_by, cons
   const bool f32_moves = rounding_loss(lattice.box, lattice.to_world, Precision::f32).matters;
   options.extract.precision = f32_moves ? Precision::f64 : Precision::f32;
   options.formatted = any_binary(f32_moves);
-  const MemoryNeed need = memory_counted(reader, options, invocation.stop.get_token());
-  return passes_by ? as_stream(need, reader, options) : need;
+  const auto stop = invocation.stop.get_token();
+  if (!passes_by) return memory_counted(reader, options, stop);
+  const SlabReader& kept = *std::get<std::unique_ptr<SlabReader>>(reader);
+  return memory_counted(std::make_unique<PassingPlanes>(kept), options, stop);
 }
 
 /// Copies a stream, whose samples are read more than once here. Returns whether it is one.
