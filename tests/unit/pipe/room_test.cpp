@@ -161,6 +161,27 @@ TEST(Room, DenseMeshOfARegionDoesNotShowIt) {
   expect_same(weigh(reader, extract, 1, 2, 2).found, want);
 }
 
+/// Of a pipeline whose chunks are all there at once, which a run need not come to.
+TEST(Room, IsExpectedForAFullPipelineAndNotMuchMore) {
+  constexpr std::uint64_t kMiB = 1U << 20U;
+  const Index3 dims{128, 128, 64};
+  const auto samples = random_field<float>(dims, Noise::white, 13);
+  const VolumeReader reader = owned(std::make_unique<MemorySlabs>(samples, dims));
+  RunOptions options;
+  options.extract = extract_options(kOptions[0]);
+  options.slab_layers = 8;
+  for (const int threads : {1, 2, 5}) {
+    SCOPED_TRACE(threads);
+    const Weighed got = weigh(reader, options.extract, 0, threads, options.slab_layers);
+    const base::ThreadLimit limit(threads);
+    const std::uint64_t full = got.most * std::min<std::uint64_t>(base::pipeline_slots(), 8);
+    const MemoryNeed need = memory_counted(reader, options, {});
+    EXPECT_GT(full, 8 * kMiB);
+    EXPECT_LE(full, need.expected);
+    EXPECT_LE(need.expected, 3 * full + 16 * kMiB);
+  }
+}
+
 TEST(Room, SparseMeshDoesNotShowIt) {
   const Index3 dims{40, 24, 32};
   const auto samples = random_field<float>(dims, Noise::white, 3);
