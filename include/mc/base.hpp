@@ -28,6 +28,17 @@ enum class ErrorKind : std::uint8_t {
   defect = 7,    ///< `check` found a defect
 };
 
+/// What a user can change about what an error or a note says. The library states facts; its caller
+/// names the option or control that does this.
+enum class Remedy : std::uint8_t {
+  none,
+  more_memory,     ///< a larger memory budget, or a smaller region
+  smaller_region,  ///< fewer samples at a time
+  close_border,    ///< Border::closed
+  choose_grid,     ///< SourceOptions::grid
+  choose_iso,      ///< an isovalue within the range of the data
+};
+
 /// The one exception of the library.
 /// what() reads "PLACE: FAULT; REMEDY" on one line, lower case, without "mc: error: ".
 class Error : public std::exception {
@@ -37,15 +48,21 @@ class Error : public std::exception {
   Error(ErrorKind kind, std::string_view place, std::string_view fault,
         std::string_view remedy = {});
 
+  /// As above; `remedy` is left for the caller to put into words.
+  Error(ErrorKind kind, std::string_view place, std::string_view fault, Remedy remedy);
+
   /// Several faults found together; each entry is a whole line "PLACE: FAULT; REMEDY".
   Error(ErrorKind kind, std::vector<std::string> lines);
 
   [[nodiscard]] ErrorKind kind() const noexcept { return kind_; }
+  /// What the caller can suggest besides what lines() say.
+  [[nodiscard]] Remedy remedy() const noexcept { return remedy_; }
   [[nodiscard]] const std::vector<std::string>& lines() const noexcept { return lines_; }
   [[nodiscard]] const char* what() const noexcept override { return lines_.front().c_str(); }
 
  private:
   ErrorKind kind_;
+  Remedy remedy_ = Remedy::none;
   std::vector<std::string> lines_;  // never empty
 };
 
@@ -63,9 +80,13 @@ class Progress {
   /// A new stage starts; `total` units of `unit` ("samples", "bytes") lie ahead, 0 where unknown.
   virtual void begin(std::string_view stage, std::uint64_t total, std::string_view unit) = 0;
   virtual void advance(std::uint64_t done) = 0;
+  /// The stage has ended.
+  virtual void end_stage() {}
   /// Something worth knowing ("2 of 3 grids are not meshed: ...").
   virtual void note(std::string_view text) = 0;
-  /// Something that only who looks for it wants to know ("copied to a temporary file").
+  /// As above, with what a user can change about it.
+  virtual void note_remedy(std::string_view text, Remedy /*remedy*/) { note(text); }
+  /// Something for verbose output only ("copied to a temporary file").
   virtual void detail(std::string_view /*text*/) {}
   /// Something that may make the result other than wished; also goes into `--report`.
   virtual void warn(std::string_view text) = 0;

@@ -32,6 +32,9 @@ Error::Error(ErrorKind kind, std::string_view place, std::string_view fault,
              std::string_view remedy)
     : kind_(kind), lines_{one_line(place, fault, remedy)} {}
 
+Error::Error(ErrorKind kind, std::string_view place, std::string_view fault, Remedy remedy)
+    : kind_(kind), remedy_(remedy), lines_{one_line(place, fault, {})} {}
+
 Error::Error(ErrorKind kind, std::vector<std::string> lines)
     : kind_(kind), lines_(std::move(lines)) {
   if (lines_.empty()) {

@@ -32,8 +32,8 @@ class Console final : public Progress {
   void detail(std::string_view text) override;
 
   void error(std::string_view text);
-  /// The stage has ended: takes the bar away.
-  void end_stage();
+  /// Removes the progress bar.
+  void end_stage() override;
 
   /// For one of several jobs at once: what it says is kept, until take_lines() hands it out.
   void keep_lines();

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "cli/remedy.hpp"
 #include "mc/base.hpp"
 #include "mc/source.hpp"
 
@@ -39,6 +40,12 @@ Failure internal_fault(std::string_view what) {
           {fmt::format("internal fault: {}; please report it", what)}};
 }
 
+/// An error's lines, with the option that remedies it.
+std::vector<std::string> lines_of(const Error& e) {
+  if (e.remedy() == Remedy::none) return e.lines();
+  return {with_remedy(e.what(), e.remedy())};
+}
+
 }  // namespace
 
 std::optional<Failure> attempt(const std::function<void()>& work) {
@@ -46,7 +53,7 @@ std::optional<Failure> attempt(const std::function<void()>& work) {
     run_on_inputs(work);
     return std::nullopt;
   } catch (const Error& e) {
-    return Failure{static_cast<int>(e.kind()), e.lines()};
+    return Failure{static_cast<int>(e.kind()), lines_of(e)};
   } catch (const Cancelled&) {
     // Only a signal asks for it, and the signal ends the process a moment later.
     return Failure{128 + SIGINT, {}};

@@ -27,7 +27,7 @@ void DenseGrid::set_part(const IndexBox& part) {
                 "a plane of " + std::to_string(classifier.row_samples()) + "x" +
                     std::to_string(classifier.n_rows()) +
                     " samples could hold more vertices than 32-bit ids can name",
-                "extract it in parts with --region");
+                Remedy::smaller_region);
   }
   n_layers = static_cast<std::int32_t>(classifier.n_planes()) - 1;
 }

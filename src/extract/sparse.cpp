@@ -82,7 +82,7 @@ void SparseExtractor::emit_triangles(const Walk& walk, std::uint64_t base, const
     const std::uint64_t first = there.first - base;
     if (first > std::numeric_limits<std::uint32_t>::max() - there.edges.n_vertices) {
       throw Error(ErrorKind::limit, plan_.reader().volume().name,
-                  "a layer of blocks has more than 2^32-1 vertices", "use --region");
+                  "a layer of blocks has more than 2^32-1 vertices", Remedy::smaller_region);
     }
     enter_ids(d, there.edges, static_cast<std::uint32_t>(first), ids_);
   }

@@ -135,10 +135,10 @@ Room room_within(TaskList& tasks, const RunOptions& options) {
   }
   const std::uint64_t least = least_bytes(tasks, options);
   if (options.memory_bytes < least) {
-    throw Error(ErrorKind::limit, "--memory",
+    throw Error(ErrorKind::limit, {},
                 "this run needs at least " + mebibytes(least) + ", but only " +
                     allowed(options.memory_bytes) + " are allowed",
-                "raise --memory or extract in parts with --region");
+                Remedy::more_memory);
   }
   Room room{1, 0, 1, tasks.least_chunk_bytes()};
   room.chunk_bytes = room.piece_bytes;
