@@ -181,7 +181,7 @@ struct EditRules {
 /// Memory   2 KiB a touched block of f32, and as much again for each step that undo can take back.
 class EditStore {
  public:
-  /// Keeps a reference to `input`, which must outlive the store.
+  /// Keeps a reference to `input`, which must outlive the store and is no stream.
   EditStore(const VolumeReader& input, const EditRules& rules);
   ~EditStore();
   EditStore(EditStore&& other) noexcept;

@@ -18,8 +18,9 @@
 #include "mc/base.hpp"
 
 // Scalar fields on a lattice, and the ports they come in by: SlabReader for dense volumes,
-// LeafReader for sparse ones. Sources implement them; the engine knows nothing else. VolumeSink is
-// the port by which volumes (not meshes) leave.
+// PlaneStream for dense volumes that can be read only once, LeafReader for sparse ones. Sources
+// implement them; the engine knows nothing else. VolumeSink is the port by which volumes (not
+// meshes) leave.
 
 namespace mc {
 
@@ -76,6 +77,12 @@ struct IndexBox {
     out.hi[n] = a.hi[n] > b.hi[n] ? a.hi[n] : b.hi[n];
   }
   return out;
+}
+/// Planes [k0, k1) of a box, counted from its lowest.
+[[nodiscard]] inline IndexBox planes_of(IndexBox box, std::int32_t k0, std::int32_t k1) {
+  box.hi[2] = box.lo[2] + k1 - 1;
+  box.lo[2] += k0;
+  return box;
 }
 /// With n more samples on all sides.
 [[nodiscard]] inline IndexBox grown(IndexBox box, std::int32_t n) {
@@ -200,11 +207,11 @@ class SideMap {
 /// into `storage`, which a reused Slab keeps from read to read. Samples that `sides` leaves out are
 /// not there: their memory holds anything.
 struct Slab {
-  /// Makes `storage` so large. Nothing of it is kept: memory that moves would be there twice.
-  void make_room(std::size_t n_bytes) {
-    if (storage.capacity() < n_bytes) storage = Buffer<std::byte>();
-    storage.resize(n_bytes);
-  }
+  /// Makes `storage` hold the samples of `box` without gaps, i fastest, and points `planes` at
+  /// them. The contents are undefined, `sides` and `shared` are emptied. Memory that is large
+  /// enough is reused; a copying reallocation would briefly hold both buffers.
+  /// Errors   limit: more bytes than an address space has.
+  void allocate(const IndexBox& box, std::size_t sample_bytes);
 
   std::int32_t i0 = 0, j0 = 0, k0 = 0;
   std::vector<const std::byte*> planes;
@@ -253,22 +260,40 @@ class SlabReader {
   /// an infinity of their side.
   virtual void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
                             Slab& out) const;
+  /// Copies the samples of `box`, which lies within the volume's, to `out`: i fastest, without
+  /// gaps, in the volume's type and byte order. `out` has exactly their size.
+  /// Threads: as read(). Cost: reads the box's planes one by one, unless overridden.
+  virtual void read_box(const IndexBox& box, std::span<std::byte> out) const;
+  /// Whether read_box() costs less than the planes that the box lies in, as where samples are
+  /// computed.
+  [[nodiscard]] virtual bool reads_boxes_cheaply() const { return false; }
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
-  /// Whether the planes pass by once (pipes): reads come one at a time, no k0 is lower than the one
-  /// before, and the last ends with the last plane. Only who opens a source with
-  /// SourceOptions::streams meets such a reader.
-  [[nodiscard]] virtual bool reads_once() const { return false; }
-  /// Makes it an ordinary reader, by a copy of the samples on disk. Before the first read.
-  /// Errors: input; output, when there is no room for the copy.
-  virtual void keep_planes(Progress& /*progress*/) {}
-  /// Of a reader that reads_once(), after its last plane: counts and range of its samples; of them
-  /// only a part where read_surface() met both sides of the surface.
-  [[nodiscard]] virtual FieldStatistics seen() const { return {}; }
   /// The volume's materials; null where it has none.
   [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
   /// Memory that it holds from plane to plane, pages of mapped files aside.
   [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
+};
+
+/// The port of dense volumes whose planes can be read only once, in order: pipes and packed files.
+/// Only callers that set SourceOptions::streams get one.
+class PlaneStream {
+ public:
+  virtual ~PlaneStream() = default;
+  [[nodiscard]] virtual const Volume& volume() const = 0;
+  /// Hands out planes [k0, k1) of the volume's box. No k0 is lower than in the read before, and the
+  /// last read ends with the last plane.
+  /// Threads: one call at a time. Errors: input, when the planes cannot be read.
+  virtual void read(std::int32_t k0, std::int32_t k1, Slab& out) = 0;
+  /// Like read(), for a caller that needs only the surface in `query`: once samples on both sides
+  /// of it have passed, statistics() may leave out the rest.
+  virtual void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
+                            Slab& out) = 0;
+  /// Copies all samples to disk and returns a reader of the copy; this stream is used up. Call it
+  /// before the first read. Errors: input; output, when the copy does not fit on the disk.
+  [[nodiscard]] virtual std::unique_ptr<SlabReader> spool(Progress& progress) = 0;
+  /// Counts and range of the samples read so far.
+  [[nodiscard]] virtual FieldStatistics statistics() const = 0;
 };
 
 /// A cube of equal samples, `size` a multiple of 8, `origin` a multiple of `size`.
@@ -305,10 +330,23 @@ class LeafReader {
   [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
 };
 
-/// A volume of either kind.
-using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>>;
+/// A volume of any kind.
+using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>,
+                                  std::unique_ptr<PlaneStream>>;
 [[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
+/// The volume's materials; null where it has none.
 [[nodiscard]] const MaterialReader* materials_of(const VolumeReader& reader);
+[[nodiscard]] inline bool is_dense(const VolumeReader& reader) {
+  return !std::holds_alternative<std::unique_ptr<LeafReader>>(reader);
+}
+[[nodiscard]] inline bool is_stream(const VolumeReader& reader) {
+  return std::holds_alternative<std::unique_ptr<PlaneStream>>(reader);
+}
+/// Replaces a stream by a copy of its samples on disk, which can be read in any order and again;
+/// leaves other readers alone. Returns whether it was a stream. Errors: as PlaneStream::spool().
+bool spool_stream(VolumeReader& reader, Progress& progress);
+/// Memory that the reader holds, pages of mapped files and the planes of streams aside.
+[[nodiscard]] std::uint64_t held_bytes_of(const VolumeReader& reader);
 /// What is left of so much memory beside an input that holds so much. At least half: an input that
 /// holds more cannot be made smaller.
 [[nodiscard]] constexpr std::uint64_t memory_beside(std::uint64_t held_bytes,
@@ -341,6 +379,7 @@ std::unique_ptr<SlabReader> dense_view(const LeafReader& sparse, const IndexBox&
 std::unique_ptr<SlabReader> crop_view(const SlabReader& whole, const IndexBox& box);
 
 /// Reads every sample (the scalars more than once where percentiles of wide types are asked for).
+/// Precondition: not a stream, see spool_stream().
 /// Percentiles  in [0, 100], nearest rank over the samples that are not NaN: always a value of the
 /// data. Otsu     exact histogram for 8- and 16-bit types, else 1024 bins over the finite range;
 /// the value

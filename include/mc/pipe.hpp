@@ -42,7 +42,7 @@ struct RunOptions {
   std::uint64_t memory_bytes = 1ULL << 30;
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
-  CountFirst count_first = CountFirst::no;  ///< no, where the reader reads once
+  CountFirst count_first = CountFirst::no;  ///< ignored for streams, which are read once
   const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
@@ -53,10 +53,11 @@ struct RunOptions {
 /// it. Errors   limit: options.memory_bytes are less than the least.
 MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options);
 
-/// The same of the surface that is there, which a pass over all samples counts.
-/// Errors   as above; those of the reader. Precondition: it does not read once.
+/// What a run needs, with the surface counted by a pass over all samples. `streamed`: the run will
+/// read these samples from a stream. Precondition: `reader` is no stream.
+/// Errors   as memory_needed(); those of the reader.
 MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
-                          const std::stop_token& stop);
+                          const std::stop_token& stop, bool streamed = false);
 
 /// Refuses, before anything is read, a dense run that cannot keep its budget. What a sparse run
 /// needs shows when it is planned, in run(). Errors   limit.

@@ -30,8 +30,8 @@ struct SourceOptions {
   std::optional<Vec3> spacing;           ///< world units; overrides the file's
   std::optional<Vec3> origin;            ///< world position of sample 0,0,0; overrides the file's
   std::optional<std::string> channel{};  ///< pictures; empty: Y, else R, else the first
-  /// The caller minds SlabReader::reads_once(): raw and NRRD samples of a pipe or a packed file are
-  /// then not copied to $TMPDIR.
+  /// The caller accepts a PlaneStream: raw and NRRD samples of a pipe or a packed file are then not
+  /// copied to $TMPDIR.
   bool streams = false;
   /// The folder that files must lie in which the input's own text names: pictures and volumes of
   /// documents, data files of NRRD headers. Empty: anywhere.

@@ -101,16 +101,7 @@ class FieldReader final : public SlabReader {
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
     const Index3 dims = volume_.lattice.dims();
-    const auto row = static_cast<std::size_t>(dims[0]) * sizeof(float);
-    const std::size_t plane = row * static_cast<std::size_t>(dims[1]);
-    out.k0 = k0;
-    out.row_stride_bytes = row;
-    out.sides.clear();
-    out.storage.resize(plane * static_cast<std::size_t>(k1 - k0));
-    out.planes.clear();
-    for (std::int32_t k = k0; k < k1; ++k) {
-      out.planes.push_back(out.storage.data() + static_cast<std::size_t>(k - k0) * plane);
-    }
+    out.allocate(planes_of(volume_.lattice.box, k0, k1), sizeof(float));
     field_.sample(kOrigin, {spacing_, spacing_, spacing_}, {0, 0, k0},
                   {reinterpret_cast<float*>(out.storage.data()), {dims[0], dims[1], k1 - k0}});
   }

@@ -37,9 +37,9 @@ std::uint64_t sample_bytes(const VolumeReader& reader) {
 
 /// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
 CountFirst counting_of(const VolumeReader& reader) {
+  if (!is_dense(reader)) return CountFirst::yes;
   const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
-  if (dense == nullptr) return CountFirst::yes;
-  return (*dense)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
+  return dense != nullptr && (*dense)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
 }
 
 /// What one job knows by and by.
@@ -152,11 +152,10 @@ FieldStatistics Extraction::measure(std::span<const double> percentiles) {
 
 /// One pass is enough for one iso that is known, over all planes; else a stream is copied first.
 void Extraction::keep_what_is_read_again() {
-  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader());
-  if (dense == nullptr || !(*dense)->reads_once()) return;
+  if (!opened_ || !is_stream(opened_->reader)) return;
   const bool again = plan_.isos.size() > 1 || plan_.extract.region;
   if (iso_needs_data(plan_.isos, volume()) || (again && !plan_.dry_run)) {
-    timed("spool", [&] { (*dense)->keep_planes(invocation_.console); });
+    timed("spool", [&] { spool_stream(opened_->reader, invocation_.console); });
   }
 }
 
@@ -233,9 +232,8 @@ MeshTotals Extraction::run_one(const Iso& iso, MeshSink& sink) {
     if (e.kind() != ErrorKind::empty) throw;
   }
   // The engine has not looked at the values; who asked for this iso wants to know them.
-  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader());
-  const bool passed = dense != nullptr && (*dense)->reads_once();
-  const FieldStatistics statistics = passed ? (*dense)->seen() : measure({});
+  const auto* stream = std::get_if<std::unique_ptr<PlaneStream>>(&reader());
+  const FieldStatistics statistics = stream != nullptr ? (*stream)->statistics() : measure({});
   const std::string value = iso_text(iso.value, volume().type);
   if (statistics.n_nan + statistics.n_infinite == statistics.n_samples) {
     throw Error(ErrorKind::empty, source_->place,

@@ -58,21 +58,8 @@ Formatted any_binary(bool f32_moves) {
   return most;
 }
 
-/// Planes that were kept, as extract would take them from the stream.
-class PassingPlanes final : public SlabReader {
- public:
-  explicit PassingPlanes(const SlabReader& kept) : kept_(kept) {}
-  [[nodiscard]] const Volume& volume() const override { return kept_.volume(); }
-  void read(std::int32_t k0, std::int32_t k1, Slab& out) const override { kept_.read(k0, k1, out); }
-  [[nodiscard]] bool rereads_cheaply() const override { return false; }
-  [[nodiscard]] bool reads_once() const override { return true; }
-
- private:
-  const SlabReader& kept_;
-};
-
 /// Of a mesh at the suggested iso by mc-extract(1), in any binary format.
-MemoryNeed estimate(const VolumeReader& reader, double iso, bool passes_by, const Wish& wish,
+MemoryNeed estimate(const VolumeReader& reader, double iso, bool streamed, const Wish& wish,
                     Invocation& invocation) {
   const Volume& volume = volume_of(reader);
   RunOptions options;
@@ -85,24 +72,13 @@ MemoryNeed estimate(const VolumeReader& reader, double iso, bool passes_by, cons
   const bool f32_moves = rounding_loss(lattice.box, lattice.to_world, Precision::f32).matters;
   options.extract.precision = f32_moves ? Precision::f64 : Precision::f32;
   options.formatted = any_binary(f32_moves);
-  const auto stop = invocation.stop.get_token();
-  if (!passes_by) return memory_counted(reader, options, stop);
-  const SlabReader& kept = *std::get<std::unique_ptr<SlabReader>>(reader);
-  return memory_counted(std::make_unique<PassingPlanes>(kept), options, stop);
+  return memory_counted(reader, options, invocation.stop.get_token(), streamed);
 }
 
-/// Copies a stream, whose samples are read more than once here. Returns whether it is one.
-bool keep(const VolumeReader& reader, Progress& progress) {
-  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
-  if (dense == nullptr || !(*dense)->reads_once()) return false;
-  (*dense)->keep_planes(progress);
-  return true;
-}
-
-void measure_grid(const VolumeReader& reader, bool piped, const Wish& wish, GridInfo& grid,
+void measure_grid(VolumeReader reader, bool piped, const Wish& wish, GridInfo& grid,
                   Invocation& invocation) {
+  const bool streams = spool_stream(reader, invocation.console);
   const Volume& volume = volume_of(reader);
-  const bool streams = keep(reader, invocation.console);
   const bool streamed_by_extract =
       streams || (piped && (volume.format == "raw" || volume.format == "nrrd"));
   grid.statistics = measure_field(reader, kInfoPercentiles, invocation.console,
@@ -133,10 +109,10 @@ void inspect_once(const std::vector<std::string>& inputs, const SourceOptions& o
                   const Wish& wish, Invocation& invocation, InputInfo& info) {
   SourceOptions once = options;
   once.streams = true;
-  const Source source = open_source(inputs, once, invocation.console);
+  Source source = open_source(inputs, once, invocation.console);
   const Volume& volume = volume_of(source.reader);
   info.grids.push_back({{volume, sample_name(volume.type), ""}, {}, 0, {}, {}});
-  measure_grid(source.reader, false, wish, info.grids.front(), invocation);
+  measure_grid(std::move(source.reader), false, wish, info.grids.front(), invocation);
   if (!source.other_grids.empty()) {
     invocation.console.note(fmt::format("{}: holds other grids too: {}; a FIFO shows one",
                                         info.place, fmt::join(source.other_grids, ", ")));

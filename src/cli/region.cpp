@@ -26,8 +26,7 @@ bool overlap(const IndexBox& a, const IndexBox& b) {
 void check_region(const VolumeReader& reader, const std::optional<IndexBox>& region) {
   if (!region) return;
   const IndexBox& whole = volume_of(reader).lattice.box;
-  const bool dense = std::holds_alternative<std::unique_ptr<SlabReader>>(reader);
-  if (dense ? whole.contains(*region) : overlap(whole, *region)) return;
+  if (is_dense(reader) ? whole.contains(*region) : overlap(whole, *region)) return;
   throw Error(ErrorKind::usage, "--region",
               fmt::format("{} lies outside the volume: expected a box within {}", box_text(*region),
                           box_text(whole)));

@@ -201,15 +201,10 @@ void write_slice(const VolumeReader& from, const SamplePlan& plan, Invocation& i
   IndexBox box = lattice.box;
   box.lo[plane.axis] = plane.index;
   box.hi[plane.axis] = plane.index;
-  const auto view = [&]<class Reader>(const Reader& reader) {
-    if constexpr (std::is_same_v<Reader, SlabReader>) {
-      return crop_view(reader, box);
-    } else {
-      return dense_view(reader, box);
-    }
-  };
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&from);
   const std::unique_ptr<SlabReader> thin =
-      std::visit([&](const auto& reader) { return view(*reader); }, from);
+      dense != nullptr ? crop_view(**dense, box)
+                       : dense_view(*std::get<std::unique_ptr<LeafReader>>(from), box);
   const std::unique_ptr<PictureSink> sink = open_picture_sink(plan.job.output, plan.sink);
   const Picture picture = read_plane(*thin, volume, plane.axis, plan, invocation);
   refuse_changed_inputs();

@@ -14,19 +14,20 @@ namespace mc::cli {
 
 namespace {
 
-/// All planes in order; the sink has begun.
-void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
-                  Invocation& invocation) {
-  const Volume& volume = reader.volume();
+/// All planes of a reader or stream, in order; the sink has begun.
+template <class Planes>
+void write_planes(Planes& planes, std::uint64_t held_bytes, const SamplePlan& plan,
+                  VolumeSink& sink, Invocation& invocation) {
+  const Volume& volume = planes.volume();
   const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
   const std::int32_t step =
-      planes_a_read(volume, memory_beside(reader.held_bytes(), plan.memory_bytes), plan.job.output);
+      planes_a_read(volume, memory_beside(held_bytes, plan.memory_bytes), plan.job.output);
   invocation.console.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
   Slab slab;
   for (std::int32_t k = 0; k < n_planes; k += step) {
     if (invocation.stop.stop_requested()) throw Cancelled();
     const std::int32_t end = std::min(n_planes, k + step);
-    reader.read(k, end, slab);
+    planes.read(k, end, slab);
     sink.write(slab);
     invocation.console.advance(static_cast<std::uint64_t>(end - k));
   }
@@ -35,7 +36,7 @@ void write_planes(const SlabReader& reader, const SamplePlan& plan, VolumeSink& 
 void write_part(const SlabReader& part, const SamplePlan& plan, VolumeSink& sink,
                 Invocation& invocation) {
   sink.begin(part.volume());
-  write_planes(part, plan, sink, invocation);
+  write_planes(part, part.held_bytes(), plan, sink, invocation);
 }
 
 void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
@@ -47,6 +48,11 @@ void write(const SlabReader& reader, const SamplePlan& plan, VolumeSink& sink,
   }
 }
 
+void write(PlaneStream& stream, const SamplePlan& plan, VolumeSink& sink, Invocation& invocation) {
+  sink.begin(stream.volume());
+  write_planes(stream, 0, plan, sink, invocation);
+}
+
 void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
            Invocation& invocation) {
   if (plan.region) {
@@ -55,7 +61,8 @@ void write(const LeafReader& reader, const SamplePlan& plan, VolumeSink& sink,
   }
   sink.begin(reader.volume());
   if (!sink.write_sparse(reader)) {
-    write_planes(*dense_view(reader, reader.volume().lattice.box), plan, sink, invocation);
+    const auto view = dense_view(reader, reader.volume().lattice.box);
+    write_planes(*view, view->held_bytes(), plan, sink, invocation);
   }
 }
 

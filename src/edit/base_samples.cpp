@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstring>
 
-#include "field/box_reader.hpp"
 #include "field/visit_type.hpp"
 
 // Samples of an input by blocks and boxes, whatever its kind. Leaves are found by bisection of the
@@ -177,7 +176,7 @@ void InputSamples::read_block(const Index3& block, std::byte* out) const {
 
 void InputSamples::read_box(const IndexBox& box, std::span<std::byte> out) const {
   if (slabs_ != nullptr) {
-    field::read_box(*slabs_, box, out);
+    slabs_->read_box(box, out);
     if (volume_->endian != std::endian::native) swap_samples(out, sample_bytes_);
     return;
   }

@@ -8,7 +8,6 @@
 
 #include "edit/edited_materials.hpp"
 #include "edit/edited_reader.hpp"
-#include "field/box_reader.hpp"
 
 // An edited dense volume as planes. Planes without a stored block are the input's own memory; the
 // others are copied and patched.
@@ -95,7 +94,7 @@ class SampleBits {
   std::vector<std::uint64_t> bits_;
 };
 
-class EditedSlabs final : public SlabReader, public field::BoxReader {
+class EditedSlabs final : public SlabReader {
  public:
   EditedSlabs(const World& world, Volume volume)
       : samples_(world.samples),
@@ -133,6 +132,7 @@ class EditedSlabs final : public SlabReader, public field::BoxReader {
     patch(out);
   }
 
+  [[nodiscard]] bool reads_boxes_cheaply() const override { return true; }
   void read_box(const IndexBox& box, std::span<std::byte> out) const override {
     samples_.read_box(box, out);
     if (volume_.endian != std::endian::native) swap_samples(out, size_);
@@ -196,21 +196,16 @@ std::vector<std::size_t> EditedSlabs::patched_planes(std::int32_t k0, std::int32
 
 void EditedSlabs::read_fill(std::int32_t k0, std::int32_t k1, Slab& out) const {
   const std::vector<std::size_t> patched = patched_planes(k0, k1);
-  const Index3 dims = volume_.lattice.dims();
-  const std::size_t n = static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]);
+  const auto n_own = static_cast<std::int32_t>(patched.size()) + 1;
   Scalar value = *samples_.filled();
   if (volume_.endian != std::endian::native) {
     swap_samples(std::span(value.bytes).first(size_), size_);
   }
-  out.i0 = out.j0 = 0;
-  out.k0 = k0;
-  out.row_stride_bytes = static_cast<std::size_t>(dims[0]) * size_;
-  out.make_room(n * size_ * (1 + patched.size()));
-  fill_samples(out.storage.data(), n * (1 + patched.size()), value, size_);
-  out.planes.assign(static_cast<std::size_t>(k1 - k0), out.storage.data());
-  for (std::size_t p = 0; p < patched.size(); ++p) {
-    out.planes[patched[p]] = out.storage.data() + (1 + p) * n * size_;
-  }
+  out.allocate(planes_of(volume_.lattice.box, k0, k0 + n_own), size_);
+  fill_samples(out.storage.data(), out.storage.size() / size_, value, size_);
+  const std::vector<const std::byte*> own = out.planes;
+  out.planes.assign(static_cast<std::size_t>(k1 - k0), own.front());
+  for (std::size_t p = 0; p < patched.size(); ++p) out.planes[patched[p]] = own[p + 1];
 }
 
 void EditedSlabs::own_planes(Slab& out) const {
@@ -296,7 +291,7 @@ void EditedSlabs::copy_input(const IndexBox& part, Slab& out) const {
   const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
   std::vector<std::byte> samples(row_bytes *
                                  static_cast<std::size_t>(part.extent(1) * part.extent(2)));
-  field::read_box(input(), part, samples);
+  input().read_box(part, samples);
   const std::byte* from = samples.data();
   for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
     for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j, from += row_bytes) {

@@ -90,7 +90,28 @@ const Volume& volume_of(const VolumeReader& reader) {
 }
 
 const MaterialReader* materials_of(const VolumeReader& reader) {
-  return std::visit([](const auto& port) { return port->materials(); }, reader);
+  if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
+    return (*dense)->materials();
+  }
+  if (const auto* sparse = std::get_if<std::unique_ptr<LeafReader>>(&reader)) {
+    return (*sparse)->materials();
+  }
+  return nullptr;  // a file's samples have none
+}
+
+std::uint64_t held_bytes_of(const VolumeReader& reader) {
+  if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
+    return (*dense)->held_bytes();
+  }
+  const auto* sparse = std::get_if<std::unique_ptr<LeafReader>>(&reader);
+  return sparse != nullptr ? (*sparse)->held_bytes() : 0;
+}
+
+bool spool_stream(VolumeReader& reader, Progress& progress) {
+  auto* stream = std::get_if<std::unique_ptr<PlaneStream>>(&reader);
+  if (stream == nullptr) return false;
+  reader = (*stream)->spool(progress);
+  return true;
 }
 
 }  // namespace mc

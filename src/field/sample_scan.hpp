@@ -57,6 +57,17 @@ inline std::uint64_t scan_length(const LeafReader& sparse) {
   return sparse.leaves().size() * LeafReader::kLeafSamples;
 }
 
+inline std::size_t part_count(const VolumeReader& reader) {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  return dense != nullptr ? part_count(**dense)
+                          : part_count(*std::get<std::unique_ptr<LeafReader>>(reader));
+}
+inline std::uint64_t scan_length(const VolumeReader& reader) {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  return dense != nullptr ? scan_length(**dense)
+                          : scan_length(*std::get<std::unique_ptr<LeafReader>>(reader));
+}
+
 /// Planes of one read: sources that decode do so by runs of planes.
 inline std::size_t planes_at_once(const Volume& volume) {
   constexpr std::uint64_t kReadBytes = std::uint64_t{1} << 24U;

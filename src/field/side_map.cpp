@@ -60,10 +60,4 @@ std::size_t SideMap::row(std::int32_t j, std::int32_t k) const {
   return (plane_block * n_row_blocks_ + row_block) * n_words_;
 }
 
-void SlabReader::read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& /*query*/,
-                              Slab& out) const {
-  out.sides.clear();
-  read(k0, k1, out);
-}
-
 }  // namespace mc

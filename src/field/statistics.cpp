@@ -285,8 +285,7 @@ std::vector<double> selected(const VolumeReader& reader, std::span<const double>
 template <class T>
 FieldStatistics measure_wide(const VolumeReader& reader, std::span<const double> percentiles,
                              const Watch& watch) {
-  const std::size_t n_parts =
-      std::visit([](const auto& port) { return field::part_count(*port); }, reader);
+  const std::size_t n_parts = field::part_count(reader);
   std::vector<double> sums(n_parts);
   FieldStatistics out;
   std::uint64_t n_finite = 0;
@@ -322,13 +321,10 @@ FieldStatistics measure_field(const VolumeReader& reader, std::span<const double
                               Progress& progress, const std::stop_token& stop,
                               std::uint64_t memory_bytes) {
   const SampleType type = volume_of(reader).type;
-  const std::uint64_t n_samples =
-      std::visit([](const auto& port) { return field::scan_length(*port); }, reader);
+  const std::uint64_t n_samples = field::scan_length(reader);
   progress.begin("statistics", n_samples * n_passes(sample_size(type), percentiles.size()),
                  "samples");
-  const std::uint64_t held =
-      std::visit([](const auto& port) { return port->held_bytes(); }, reader);
-  const Watch watch{progress, stop, memory_beside(held, memory_bytes)};
+  const Watch watch{progress, stop, memory_beside(held_bytes_of(reader), memory_bytes)};
   return field::visit_type(type, [&]<class T>(field::TypeTag<T>) {
     if constexpr (sizeof(T) <= 2) {
       return measure_counted<T>(reader, percentiles, watch);

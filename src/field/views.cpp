@@ -7,8 +7,6 @@
 #include <tuple>
 #include <vector>
 
-#include "base/checked.hpp"
-#include "field/box_reader.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
 
@@ -98,33 +96,6 @@ void fill_leaf(const Planes<T>& out, const Index3& origin, const std::byte* valu
       }
     }
   }
-}
-
-/// Memory for planes [k0, k1) of a volume, in a slab.
-void make_room(const Volume& volume, std::int32_t k0, std::int32_t k1, Slab& out) {
-  const auto nx = static_cast<std::size_t>(volume.lattice.box.extent(0));
-  const auto ny = static_cast<std::size_t>(volume.lattice.box.extent(1));
-  const auto n_planes = static_cast<std::size_t>(k1 - k0);
-  const std::size_t size = sample_size(volume.type);
-  const auto bytes = base::checked_mul(nx, ny, n_planes, size);
-  if (!bytes || *bytes > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
-    throw Error(ErrorKind::limit, volume.name, "planes of this size do not fit into memory",
-                "choose a smaller --region");
-  }
-  out.k0 = k0;
-  out.row_stride_bytes = nx * size;
-  out.make_room(*bytes);
-  out.planes.clear();
-  for (std::size_t n = 0; n < n_planes; ++n) {
-    out.planes.push_back(out.storage.data() + n * ny * out.row_stride_bytes);
-  }
-}
-
-/// Planes [k0, k1) of a box, counted from its first.
-IndexBox planes_of(IndexBox box, std::int32_t k0, std::int32_t k1) {
-  box.hi[2] = box.lo[2] + k1 - 1;
-  box.lo[2] += k0;
-  return box;
 }
 
 class DenseView final : public SlabReader {
@@ -221,7 +192,7 @@ void DenseView::fill(const IndexBox& planes, std::byte* samples) const {
 
 void DenseView::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
   assert(0 <= k0 && k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
-  make_room(volume_, k0, k1, out);
+  out.allocate(planes_of(volume_.lattice.box, k0, k1), sample_size(volume_.type));
   if (k0 == k1) return;
   const IndexBox planes = planes_of(box_, k0, k1);
   field::visit_type(volume_.type, [&]<class T>(field::TypeTag<T>) {
@@ -239,10 +210,9 @@ class CropView final : public SlabReader {
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
-    if (const auto* boxes = dynamic_cast<const field::BoxReader*>(&whole_)) {
-      make_room(volume_, k0, k1, out);
-      out.sides.clear();
-      if (k0 != k1) boxes->read_box(planes_of(box_, k0, k1), out.storage);
+    if (whole_.reads_boxes_cheaply()) {
+      out.allocate(planes_of(volume_.lattice.box, k0, k1), sample_size(volume_.type));
+      if (k0 != k1) whole_.read_box(planes_of(box_, k0, k1), out.storage);
       return;
     }
     whole_.read(k0 + box_.lo[2], k1 + box_.lo[2], out);
@@ -252,7 +222,6 @@ class CropView final : public SlabReader {
     for (const std::byte*& plane : out.planes) plane += skip;
   }
   [[nodiscard]] bool rereads_cheaply() const override { return whole_.rereads_cheaply(); }
-  [[nodiscard]] bool reads_once() const override { return whole_.reads_once(); }
   [[nodiscard]] std::uint64_t held_bytes() const override { return whole_.held_bytes(); }
 
  private:

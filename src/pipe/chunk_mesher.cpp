@@ -160,19 +160,8 @@ void ChunkMesher::State::list_reached(std::span<const IndexBox> dirty) {
 /// Copies the samples that the slot's part is made of.
 void ChunkMesher::State::gather(Slot& slot) const {
   const IndexBox& box = slot.extractor.samples();
-  const auto extent = [&](int axis) { return static_cast<std::size_t>(box.extent(axis)); };
-  Slab& slab = slot.slab;
-  slab.i0 = box.lo[0];
-  slab.j0 = box.lo[1];
-  slab.k0 = box.lo[2];
-  slab.row_stride_bytes = extent(0) * sample_size(volume.type);
-  const std::size_t plane_bytes = slab.row_stride_bytes * extent(1);
-  slab.storage.resize(plane_bytes * extent(2));
-  slab.planes.resize(extent(2));
-  for (std::size_t k = 0; k < slab.planes.size(); ++k) {
-    slab.planes[k] = slab.storage.data() + k * plane_bytes;
-  }
-  store.read_box(box, slab.storage);
+  slot.slab.allocate(box, sample_size(volume.type));
+  store.read_box(box, slot.slab.storage);
 }
 
 /// A chunk painted nowhere looks as if nothing were painted anywhere.

@@ -29,12 +29,12 @@ constexpr std::int32_t kSharedPlanes = 3;
 
 class DenseTasks final : public TaskList {
  public:
-  DenseTasks(const SlabReader& reader, const RunOptions& options)
-      : reader_(reader),
-        grid_(reader.volume(), options.to_world.value_or(reader.volume().lattice.to_world),
+  DenseTasks(const PlaneInput& input, const RunOptions& options)
+      : input_(input),
+        grid_(input.volume(), options.to_world.value_or(input.volume().lattice.to_world),
               options.extract),
         given_layers_(options.slab_layers) {
-    const Volume& volume = reader.volume();
+    const Volume& volume = input.volume();
     const IndexBox box = options.extract.region.value_or(volume.lattice.box);
     plane_samples_ = static_cast<std::uint64_t>(box.extent(0) * box.extent(1));
     if (options.skip) {
@@ -67,11 +67,11 @@ class DenseTasks final : public TaskList {
     return plane_samples_ * static_cast<std::uint64_t>(last(n) - first(n));
   }
   void fetch(std::size_t n, std::size_t slot) override {
-    if (reader_.reads_once()) read(n, slots_[slot]);
+    if (input_.single_pass()) read(n, slots_[slot]);
   }
   void make(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
-    if (!reader_.reads_once()) read(n, s);
+    if (!input_.single_pass()) read(n, s);
     const std::int32_t end =
         s.extractor.extract(s.slab, first(n), last(n), room_.chunk_bytes, out.chunk, out.totals);
     out.complete = end == last(n);
@@ -102,13 +102,13 @@ class DenseTasks final : public TaskList {
   }
   [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots, std::size_t n_makers) const override {
     const std::uint64_t slab =
-        reader_.rereads_cheaply()
+        input_.rereads_cheaply()
             ? 0
             : plane_bytes_ * static_cast<std::uint64_t>(layers_ + kSharedPlanes);
     return n_slots * (extraction::DenseExtractor::scratch_bytes(grid_) + slab) +
            extraction::DenseBands::scratch_bytes(grid_, n_makers);
   }
-  [[nodiscard]] std::uint64_t input_bytes() const override { return reader_.held_bytes(); }
+  [[nodiscard]] std::uint64_t input_bytes() const override { return input_.held_bytes(); }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
     return extraction::DenseBands::least_bytes(grid_);
   }
@@ -153,10 +153,10 @@ class DenseTasks final : public TaskList {
           std::clamp<std::uint64_t>(v, std::uint64_t(lo), std::uint64_t(hi)));
     };
     const std::int32_t cached = within(kSlabSamples / plane_samples_, kMinLayers, kMaxLayers);
-    if (reader_.rereads_cheaply()) return cached;
+    if (input_.rereads_cheaply()) return cached;
     const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + kSharedPlanes);
     const std::int32_t most = std::max(planes - kSharedPlanes, 1);
-    if (reader_.reads_once()) return std::min(cached, most);
+    if (input_.single_pass()) return std::min(cached, most);
     const auto n_parts =
         std::uint64_t{kTasksAThread} * static_cast<std::uint64_t>(base::thread_count());
     const auto share = static_cast<std::uint64_t>(grid_.n_layers) / n_parts;
@@ -166,14 +166,10 @@ class DenseTasks final : public TaskList {
   }
   void read(std::size_t n, Slot& s) const {
     const auto [k0, k1] = grid_.planes_for(first(n), last(n));
-    if (query_) {
-      reader_.read_surface(k0, k1, *query_, s.slab);
-    } else {
-      reader_.read(k0, k1, s.slab);
-    }
+    input_.read(k0, k1, query_, s.slab);
   }
 
-  const SlabReader& reader_;
+  PlaneInput input_;
   extraction::DenseGrid grid_;
   std::int32_t given_layers_;
   Room room_;
@@ -189,8 +185,8 @@ class DenseTasks final : public TaskList {
 
 }  // namespace
 
-std::unique_ptr<TaskList> dense_tasks(const SlabReader& reader, const RunOptions& options) {
-  return std::make_unique<DenseTasks>(reader, options);
+std::unique_ptr<TaskList> dense_tasks(const PlaneInput& input, const RunOptions& options) {
+  return std::make_unique<DenseTasks>(input, options);
 }
 
 }  // namespace mc::pipe

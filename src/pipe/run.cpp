@@ -17,9 +17,7 @@ namespace mc {
 namespace {
 
 std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunOptions& options) {
-  if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
-    return pipe::dense_tasks(**dense, options);
-  }
+  if (is_dense(reader)) return pipe::dense_tasks(pipe::PlaneInput::of(reader), options);
   return pipe::sparse_tasks(*std::get<std::unique_ptr<LeafReader>>(reader), options);
 }
 
@@ -62,8 +60,11 @@ MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options) 
 }
 
 MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
-                          const std::stop_token& stop) {
-  const auto tasks = tasks_for(reader, options);
+                          const std::stop_token& stop, bool streamed) {
+  const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  const auto tasks = streamed && dense != nullptr
+                         ? pipe::dense_tasks(pipe::PlaneInput::planned_as_stream(**dense), options)
+                         : tasks_for(reader, options);
   MemoryNeed need = need_of(*tasks, options);
   const pipe::Room room = pipe::room_within(*tasks, options);
   tasks->set_room(room);
@@ -73,9 +74,7 @@ MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
 }
 
 void check_memory(const VolumeReader& reader, const RunOptions& options) {
-  if (std::holds_alternative<std::unique_ptr<SlabReader>>(reader)) {
-    pipe::room_within(*tasks_for(reader, options), options);
-  }
+  if (is_dense(reader)) pipe::room_within(*tasks_for(reader, options), options);
 }
 
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
@@ -86,9 +85,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
   tasks->set_room(room);
   RunOptions chosen = options;
   chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
-  if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
-    if ((*dense)->reads_once()) chosen.count_first = CountFirst::no;
-  }
+  if (is_stream(reader)) chosen.count_first = CountFirst::no;
   return pipe::Drive().run(*tasks, room, chosen, allow_empty, sink, progress, stop);
 }
 

@@ -9,6 +9,7 @@
 #include "extract/surface_sums.hpp"
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
+#include "pipe/plane_input.hpp"
 
 // A run as the pipe sees it, dense or sparse: a list of tasks, each of which makes one chunk. Where
 // a task's mesh is more than its chunk may hold, the rest of it comes in pieces, which are made
@@ -70,7 +71,7 @@ class TaskList {
   [[nodiscard]] virtual std::uint64_t input_bytes() const { return 0; }
 };
 
-std::unique_ptr<TaskList> dense_tasks(const SlabReader& reader, const RunOptions& options);
+std::unique_ptr<TaskList> dense_tasks(const PlaneInput& input, const RunOptions& options);
 std::unique_ptr<TaskList> sparse_tasks(const LeafReader& reader, const RunOptions& options);
 
 }  // namespace mc::pipe

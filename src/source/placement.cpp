@@ -5,13 +5,11 @@
 #include <cmath>
 #include <utility>
 
-#include "field/box_reader.hpp"
-
 namespace mc::source {
 
 namespace {
 
-class PlacedReader final : public SlabReader, public field::BoxReader {
+class PlacedReader final : public SlabReader {
  public:
   PlacedReader(std::unique_ptr<SlabReader> reader, const SourceOptions& options)
       : reader_(std::move(reader)), volume_(reader_->volume()) {
@@ -22,8 +20,9 @@ class PlacedReader final : public SlabReader, public field::BoxReader {
     reader_->read(k0, k1, out);
   }
   void read_box(const IndexBox& box, std::span<std::byte> out) const override {
-    field::read_box(*reader_, box, out);
+    reader_->read_box(box, out);
   }
+  [[nodiscard]] bool reads_boxes_cheaply() const override { return reader_->reads_boxes_cheaply(); }
   void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
                     Slab& out) const override {
     reader_->read_surface(k0, k1, query, out);

@@ -11,7 +11,6 @@
 #include <span>
 #include <vector>
 
-#include "field/box_reader.hpp"
 #include "mc/field.hpp"
 
 // A terrain of any size that needs no memory of that size: the height of the ground above a sample
@@ -52,7 +51,7 @@ class Terrain {
   std::vector<float> along_i_, along_k_;
 };
 
-class TerrainSlabs final : public SlabReader, public field::BoxReader {
+class TerrainSlabs final : public SlabReader {
  public:
   explicit TerrainSlabs(const Terrain& terrain) : terrain_(terrain) {
     const Index3& n = terrain.dims();
@@ -62,21 +61,11 @@ class TerrainSlabs final : public SlabReader, public field::BoxReader {
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
-    const auto row = static_cast<std::size_t>(terrain_.dims()[0]);
-    const auto plane = row * static_cast<std::size_t>(terrain_.dims()[1]);
-    out.sides.clear();
-    out.k0 = k0;
-    out.row_stride_bytes = row * sizeof(float);
-    out.storage.resize(plane * static_cast<std::size_t>(k1 - k0) * sizeof(float));
-    out.planes.clear();
-    for (std::size_t n = 0; n < static_cast<std::size_t>(k1 - k0); ++n) {
-      out.planes.push_back(out.storage.data() + n * plane * sizeof(float));
-    }
-    IndexBox box = volume_.lattice.box;
-    box.lo[2] = k0;
-    box.hi[2] = k1 - 1;
-    read_box(box, out.storage);
+    const IndexBox planes = planes_of(volume_.lattice.box, k0, k1);
+    out.allocate(planes, sizeof(float));
+    read_box(planes, out.storage);
   }
+  [[nodiscard]] bool reads_boxes_cheaply() const override { return true; }
   void read_box(const IndexBox& box, std::span<std::byte> out) const override {
     const auto n = static_cast<std::size_t>(box.extent(0));
     auto* to = reinterpret_cast<float*>(out.data());

@@ -42,15 +42,8 @@ class GraphSlabs final : public SlabReader {
  private:
   View3<float> make_room(std::int32_t k0, std::int32_t k1, Slab& out) const {
     const Index3 dims = volume_.lattice.dims();
-    const auto row = static_cast<std::size_t>(dims[0]) * sizeof(float);
-    const std::size_t plane = row * static_cast<std::size_t>(dims[1]);
-    out.k0 = k0;
-    out.row_stride_bytes = row;
-    out.storage.assign(plane * static_cast<std::size_t>(k1 - k0), std::byte{0xFF});  // NaN
-    out.planes.clear();
-    for (std::int32_t k = k0; k < k1; ++k) {
-      out.planes.push_back(out.storage.data() + static_cast<std::size_t>(k - k0) * plane);
-    }
+    out.allocate(planes_of(volume_.lattice.box, k0, k1), sizeof(float));
+    std::ranges::fill(out.storage, std::byte{0xFF});  // NaN
     return {reinterpret_cast<float*>(out.storage.data()), {dims[0], dims[1], k1 - k0}};
   }
 

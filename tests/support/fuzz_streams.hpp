@@ -40,19 +40,31 @@ class FullPipe {
   int read_end_ = -1;
 };
 
-/// Reads a dense volume as one pass over it would. Documents compute what they are asked for, so
-/// that they are read where they are small.
-inline void pass_by(SlabReader& reader) {
-  constexpr std::int64_t kMostSamples = 1 << 20;
-  const Index3 dims = reader.volume().lattice.dims();
+/// Reads a dense volume as one pass over it would, unless it is large. Streams are read whatever
+/// their number of planes, since they end with their bytes; documents compute what they are asked
+/// for.
+inline void read_in_one_pass(VolumeReader& reader) {
+  constexpr std::int64_t kMaxSamples = 1 << 20;
+  if (!is_dense(reader)) return;
+  const Index3 dims = volume_of(reader).lattice.dims();
   const std::int64_t plane = std::int64_t{dims[0]} * dims[1];
-  if (reader.reads_once() && plane > kMostSamples) reader.keep_planes(silent_progress());
-  if (plane > kMostSamples || (!reader.reads_once() && plane * dims[2] > kMostSamples)) return;
+  if (plane > kMaxSamples) {
+    spool_stream(reader, silent_progress());
+    return;
+  }
+  if (!is_stream(reader) && plane * dims[2] > kMaxSamples) return;
   Slab slab;
   volatile unsigned sum = 0;
-  for (std::int32_t k = 0; k < dims[2]; ++k) {
-    reader.read(k, k + 1, slab);
-    sum = sum + std::to_integer<unsigned>(slab.planes.front()[0]);
+  const auto read_all = [&](auto& planes) {
+    for (std::int32_t k = 0; k < dims[2]; ++k) {
+      planes.read(k, k + 1, slab);
+      sum = sum + std::to_integer<unsigned>(slab.planes.front()[0]);
+    }
+  };
+  if (const auto* stream = std::get_if<std::unique_ptr<PlaneStream>>(&reader)) {
+    read_all(**stream);
+  } else {
+    read_all(*std::get<std::unique_ptr<SlabReader>>(reader));
   }
 }
 
@@ -66,7 +78,7 @@ inline bool stream_and_read(std::span<const std::byte> bytes) {
     const std::array<std::string, 1> inputs{pipe.path()};
     try {
       Source source = open_source(inputs, options, silent_progress());
-      if (auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&source.reader)) pass_by(**dense);
+      read_in_one_pass(source.reader);
       return true;
     } catch (const Error& error) {
       if (!is_refusal(error)) throw;

@@ -88,7 +88,11 @@ inline bool open_and_read(const std::string& from, std::span<const std::byte> by
   try {
     describe_source(inputs, options, silent_progress());
     const Source source = open_source(inputs, options, silent_progress());
-    std::visit([](const auto& reader) { read_all(*reader); }, source.reader);
+    if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&source.reader)) {
+      read_all(**dense);
+    } else {
+      read_all(*std::get<std::unique_ptr<LeafReader>>(source.reader));
+    }
     return true;
   } catch (const Error& error) {
     if (!is_refusal(error)) throw;

@@ -68,6 +68,10 @@ inline const SlabReader& slabs(const Source& source) {
   return *std::get<std::unique_ptr<SlabReader>>(source.reader);
 }
 
+inline PlaneStream& stream(const Source& source) {
+  return *std::get<std::unique_ptr<PlaneStream>>(source.reader);
+}
+
 inline const LeafReader& leaves(const Source& source) {
   return *std::get<std::unique_ptr<LeafReader>>(source.reader);
 }

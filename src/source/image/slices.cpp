@@ -48,27 +48,16 @@ class SliceReader final : public SlabReader {
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
-    const Index3 dims = volume_.lattice.dims();
-    assert(0 <= k0 && k0 <= k1 && k1 <= dims[2]);
-    const auto size = [](std::int32_t n) { return static_cast<std::size_t>(n); };
-    const auto bytes =
-        base::checked_mul(size(dims[0]), size(dims[1]), size(k1 - k0), sample_size(volume_.type));
-    if (!bytes || *bytes > static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
-      throw Error(ErrorKind::limit, planes_.front().place(),
-                  "planes of this size do not fit into memory");
-    }
-    out.make_room(*bytes);
-    out.k0 = k0;
-    out.row_stride_bytes = size(dims[0]) * sample_size(volume_.type);
-    out.planes.clear();
-    const std::size_t plane_bytes = out.row_stride_bytes * size(dims[1]);
-    for (std::int32_t k = k0; k < k1; ++k) {
-      std::byte* bottom = out.storage.data() + size(k - k0) * plane_bytes;
-      const Plane& plane = planes_[size(k)];
+    assert(0 <= k0 && k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
+    out.allocate(planes_of(volume_.lattice.box, k0, k1), sample_size(volume_.type));
+    const std::size_t plane_bytes =
+        out.row_stride_bytes * static_cast<std::size_t>(volume_.lattice.box.extent(1));
+    std::byte* bottom = out.storage.data();
+    for (std::int32_t k = k0; k < k1; ++k, bottom += plane_bytes) {
+      const Plane& plane = planes_[static_cast<std::size_t>(k)];
       plane.from->image->read(plane.part, plane.channel,
                               bottom + (plane_bytes - out.row_stride_bytes),
                               -static_cast<std::ptrdiff_t>(out.row_stride_bytes));
-      out.planes.push_back(bottom);
     }
   }
 

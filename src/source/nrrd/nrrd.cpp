@@ -185,18 +185,18 @@ std::string_view head_of(InputFile& file) {
   return head;
 }
 
-std::unique_ptr<SlabReader> streamed(const Volume& volume, std::unique_ptr<NrrdSamples> samples,
-                                     const SourceOptions& options, Progress& progress) {
-  auto reader = std::make_unique<StreamedPlanes>(volume, std::move(samples));
-  if (!options.streams) reader->keep_planes(progress);
-  return reader;
+VolumeReader streamed(const Volume& volume, std::unique_ptr<NrrdSamples> samples,
+                      const SourceOptions& options, Progress& progress) {
+  auto stream = std::make_unique<StreamedPlanes>(volume, std::move(samples));
+  if (!options.streams) return stream->spool(progress);
+  return stream;
 }
 
 /// Samples behind the header. Where they have to be kept, so does all of stdin: it may be opened
 /// again.
-std::unique_ptr<SlabReader> open_attached(InputFile file, const NrrdHeader& header,
-                                          const Volume& volume, std::uint64_t n_bytes,
-                                          const SourceOptions& options, Progress& progress) {
+VolumeReader open_attached(InputFile file, const NrrdHeader& header, const Volume& volume,
+                           std::uint64_t n_bytes, const SourceOptions& options,
+                           Progress& progress) {
   const bool seeks = header.skip_bytes < 0;
   const bool mapped = !header.gzipped && (file.mappable() || seeks || !options.streams);
   if (mapped) {
@@ -218,9 +218,9 @@ std::unique_ptr<SlabReader> open_attached(InputFile file, const NrrdHeader& head
                   options, progress);
 }
 
-std::unique_ptr<SlabReader> open_detached(const NrrdHeader& header, const std::string& place,
-                                          const Volume& volume, std::uint64_t n_bytes,
-                                          const SourceOptions& options, Progress& progress) {
+VolumeReader open_detached(const NrrdHeader& header, const std::string& place, const Volume& volume,
+                           std::uint64_t n_bytes, const SourceOptions& options,
+                           Progress& progress) {
   const DataFiles data = list_files(header, place);
   const std::uint64_t part_bytes = n_bytes / data.n_files;
   const fs::path folder = place == "<stdin>" ? fs::path() : fs::path(place).parent_path();
@@ -251,8 +251,7 @@ std::unique_ptr<SlabReader> open_detached(const NrrdHeader& header, const std::s
 
 }  // namespace
 
-std::unique_ptr<SlabReader> open_nrrd(InputFile file, const SourceOptions& options,
-                                      Progress& progress) {
+VolumeReader open_nrrd(InputFile file, const SourceOptions& options, Progress& progress) {
   const std::string place = file.place();
   const NrrdHeader header = parse_nrrd_header(head_of(file), place);
   for (const std::string& field : header.unknown_fields) {

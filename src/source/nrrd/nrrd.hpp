@@ -13,7 +13,6 @@ namespace mc::source {
 
 /// `header` is the file that begins with "NRRD"; data files are found relative to its folder.
 /// Errors   input: damaged, cut off, or of a kind this version does not read; usage: raw's options.
-std::unique_ptr<SlabReader> open_nrrd(InputFile header, const SourceOptions& options,
-                                      Progress& progress);
+VolumeReader open_nrrd(InputFile header, const SourceOptions& options, Progress& progress);
 
 }  // namespace mc::source

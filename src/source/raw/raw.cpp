@@ -143,8 +143,8 @@ Volume raw_volume(const SourceOptions& options, std::int64_t nz) {
 }
 
 /// Of a volume whose sizes are typed.
-std::unique_ptr<SlabReader> open_sized_volume(const std::string& path, const SourceOptions& options,
-                                              Progress& progress) {
+VolumeReader open_sized_volume(const std::string& path, const SourceOptions& options,
+                               Progress& progress) {
   const std::vector<std::int64_t>& dims = options.dims;
   const std::uint64_t n_bytes =
       *volume_bytes(dims[0], dims[1], dims[2], *options.type) + options.skip_bytes;
@@ -200,8 +200,7 @@ std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOp
 
 }  // namespace
 
-std::unique_ptr<SlabReader> open_raw(const InputFiles& inputs, const SourceOptions& options,
-                                     Progress& progress) {
+VolumeReader open_raw(const InputFiles& inputs, const SourceOptions& options, Progress& progress) {
   check_typed(options, inputs.place);
   if (options.grid) {
     throw Error(ErrorKind::usage, "--grid", "raw data has no grids");

@@ -12,7 +12,6 @@
 namespace mc::source {
 
 /// Errors   usage: dims or type missing, dims out of range; input: a size that does not match.
-std::unique_ptr<SlabReader> open_raw(const InputFiles& inputs, const SourceOptions& options,
-                                     Progress& progress);
+VolumeReader open_raw(const InputFiles& inputs, const SourceOptions& options, Progress& progress);
 
 }  // namespace mc::source

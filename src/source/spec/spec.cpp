@@ -12,8 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/checked.hpp"
-#include "field/box_reader.hpp"
 #include "source/spec/document.hpp"
 
 // The reader of procedural volumes: planes are computed into the slab's own memory.
@@ -30,7 +28,7 @@ std::pair<std::uint16_t, bool> index_of(float value) {
   return {static_cast<std::uint16_t>(rounded > kMost ? kMost : 0), true};
 }
 
-class SpecReader final : public SlabReader, public field::BoxReader, private MaterialReader {
+class SpecReader final : public SlabReader, private MaterialReader {
  public:
   explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {}
 
@@ -42,16 +40,16 @@ class SpecReader final : public SlabReader, public field::BoxReader, private Mat
   [[nodiscard]] std::uint64_t held_bytes() const override { return spec_.data_bytes; }
 
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override {
-    out.sides.clear();
-    spec_.field.sample(spec_.origin, spec_.spacing, {0, 0, k0}, make_room(k0, k1, out));
+    spec_.field.sample(spec_.origin, spec_.spacing, {0, 0, k0}, allocate(k0, k1, out));
   }
 
   void read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
                     Slab& out) const override {
     spec_.field.sample_surface(spec_.origin, spec_.spacing, {0, 0, k0}, query,
-                               make_room(k0, k1, out), out.sides);
+                               allocate(k0, k1, out), out.sides);
   }
 
+  [[nodiscard]] bool reads_boxes_cheaply() const override { return true; }
   void read_box(const IndexBox& box, std::span<std::byte> out) const override {
     const auto extent = [&](int a) { return static_cast<std::int32_t>(box.extent(a)); };
     Buffer<float> samples(out.size() / sizeof(float));
@@ -80,28 +78,13 @@ class SpecReader final : public SlabReader, public field::BoxReader, private Mat
     return n_held;
   }
 
-  /// Memory for planes of samples, in a slab.
-  View3<float> make_room(std::int32_t k0, std::int32_t k1, Slab& out) const {
-    const Index3 dims = spec_.volume.lattice.dims();
-    assert(0 <= k0 && k0 <= k1 && k1 <= dims[2]);
-    const auto size = [](std::int32_t v) { return static_cast<std::uint64_t>(v); };
-    const auto bytes = base::checked_mul(size(dims[0]), size(dims[1]), size(k1 - k0),
-                                         std::uint64_t{sizeof(float)});
-    if (!bytes || *bytes > static_cast<std::uint64_t>(std::numeric_limits<std::ptrdiff_t>::max())) {
-      throw Error(ErrorKind::limit, "", "the planes of this volume do not fit in memory",
-                  "make the grid smaller");
-    }
-    out.make_room(*bytes);
-    out.k0 = k0;
-    out.row_stride_bytes = size(dims[0]) * sizeof(float);
-    const std::uint64_t plane_bytes = out.row_stride_bytes * size(dims[1]);
-    out.planes.clear();
-    for (std::int32_t k = k0; k < k1; ++k) {
-      out.planes.push_back(out.storage.data() + size(k - k0) * plane_bytes);
-    }
-    // Storage comes from operator new, which aligns for every scalar type.
-    auto* samples = reinterpret_cast<float*>(out.storage.data());
-    return {samples, {dims[0], dims[1], k1 - k0}};
+  [[nodiscard]] View3<float> allocate(std::int32_t k0, std::int32_t k1, Slab& out) const {
+    const IndexBox planes = planes_of(spec_.volume.lattice.box, k0, k1);
+    out.allocate(planes, sizeof(float));
+    // Storage is aligned for every scalar type.
+    return {reinterpret_cast<float*>(out.storage.data()),
+            {static_cast<std::int32_t>(planes.extent(0)),
+             static_cast<std::int32_t>(planes.extent(1)), k1 - k0}};
   }
 
   SpecDocument spec_;

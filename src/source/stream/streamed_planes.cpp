@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <mutex>
 #include <utility>
 #include <vector>
 
+#include "source/mapped_planes.hpp"
 #include "source/stream/spool.hpp"
 
 namespace mc::source {
@@ -40,80 +42,70 @@ class StreamedPlanes::Pool : public std::enable_shared_from_this<Pool> {
 };
 
 StreamedPlanes::StreamedPlanes(Volume volume, std::unique_ptr<SampleStream> samples)
-    : volume_(std::move(volume)) {
+    : volume_(std::move(volume)),
+      samples_(std::move(samples)),
+      range_(volume_.type, volume_.endian) {
   const Index3 dims = volume_.lattice.dims();
   row_bytes_ = static_cast<std::size_t>(dims[0]) * sample_size(volume_.type);
   plane_bytes_ = row_bytes_ * static_cast<std::size_t>(dims[1]);
   pool_ = std::make_shared<Pool>(plane_bytes_);
-  passing_ =
-      std::make_unique<Passing>(std::move(samples), SampleRange(volume_.type, volume_.endian));
 }
 
 StreamedPlanes::~StreamedPlanes() = default;
 
-StreamedPlanes::Plane StreamedPlanes::next_plane() const {
-  Passing& p = *passing_;
+StreamedPlanes::Plane StreamedPlanes::next_plane() {
   const std::shared_ptr<std::byte> plane = pool_->take();
-  p.samples->read({plane.get(), plane_bytes_});
-  if (p.ranging) p.range.add(plane.get(), plane_bytes_ / sample_size(volume_.type));
-  if (++p.next == volume_.lattice.dims()[2]) p.samples->finish();
+  samples_->read({plane.get(), plane_bytes_});
+  if (measures_range_) range_.add(plane.get(), plane_bytes_ / sample_size(volume_.type));
+  if (++next_ == volume_.lattice.dims()[2]) samples_->finish();
   return plane;
 }
 
-void StreamedPlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
+void StreamedPlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) {
+  assert(k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
+  assert(k0 >= next_ - static_cast<std::int32_t>(window_.size()));
   out.sides.clear();
   out.shared.clear();
-  if (kept_) {
-    kept_->read(k0, k1, out);
-    return;
-  }
-  Passing& p = *passing_;
-  const std::lock_guard lock(p.mutex);
-  assert(k0 <= k1 && k1 <= volume_.lattice.dims()[2]);
-  assert(k0 >= p.next - static_cast<std::int32_t>(p.window.size()));
   const auto drop_before = [&](std::int32_t k) {
-    while (!p.window.empty() && p.next - static_cast<std::int32_t>(p.window.size()) < k) {
-      p.window.pop_front();
+    while (!window_.empty() && next_ - static_cast<std::int32_t>(window_.size()) < k) {
+      window_.pop_front();
     }
   };
   drop_before(k0);
-  while (p.next < k1) {
-    p.window.push_back(next_plane());
+  while (next_ < k1) {
+    window_.push_back(next_plane());
     drop_before(k0);
   }
   out.k0 = k0;
   out.row_stride_bytes = row_bytes_;
   out.planes.clear();
-  out.shared.assign(p.window.begin(), p.window.begin() + (k1 - k0));
+  out.shared.assign(window_.begin(), window_.begin() + (k1 - k0));
   for (const Plane& plane : out.shared) out.planes.push_back(plane.get());
 }
 
 void StreamedPlanes::read_surface(std::int32_t k0, std::int32_t k1, const SurfaceQuery& query,
-                                  Slab& out) const {
+                                  Slab& out) {
   read(k0, k1, out);
-  if (kept_ || query.region != volume_.lattice.box) return;
+  if (query.region != volume_.lattice.box) return;
   // With samples on both sides there is a surface, and nobody will ask for the range.
-  const std::lock_guard lock(passing_->mutex);
-  passing_->ranging = passing_->ranging && !passing_->range.spans(query.iso);
+  measures_range_ = measures_range_ && !range_.spans(query.iso);
 }
 
-void StreamedPlanes::keep_planes(Progress& progress) {
-  if (kept_) return;
-  assert(passing_->next == 0);
-  SampleStream& samples = *passing_->samples;
-  Spool spool(samples.place(), "its samples are read more than once", progress);
-  Buffer<std::byte> block(std::size_t{1} << 18U);  // a plane may be more than there is
+std::unique_ptr<SlabReader> StreamedPlanes::spool(Progress& progress) {
+  assert(next_ == 0);
+  Spool spool(samples_->place(), "its samples are read more than once", progress);
+  Buffer<std::byte> block(std::size_t{1} << 18U);  // a plane may be larger than the memory
   std::uint64_t left = std::uint64_t{plane_bytes_} * std::uint64_t(volume_.lattice.dims()[2]);
   while (left > 0) {
     const auto part = std::span(block).first(std::min<std::uint64_t>(left, block.size()));
-    samples.read(part);
+    samples_->read(part);
     spool.write(part);
     left -= part.size();
   }
-  samples.finish();
+  samples_->finish();
   std::vector<PlaneFile> files;
-  files.push_back({MappedFile(samples.place(), spool.release()), 0});
-  kept_ = std::make_unique<MappedPlanes>(volume_, std::move(files), volume_.lattice.dims()[2]);
+  files.push_back({MappedFile(samples_->place(), spool.release()), 0});
+  return std::make_unique<MappedPlanes>(volume_, std::move(files), volume_.lattice.dims()[2]);
 }
 
 }  // namespace mc::source

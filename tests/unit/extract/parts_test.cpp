@@ -24,16 +24,9 @@ Affine skewed() { return {{1.5, 0.25, 0, 10, 0, 2, 0.5, -20, 0.125, 0, 3, 30}}; 
 template <class T>
 Slab cut_out(const std::vector<T>& samples, const Index3& dims, const IndexBox& box) {
   Slab slab;
-  slab.i0 = box.lo[0];
-  slab.j0 = box.lo[1];
-  slab.k0 = box.lo[2];
-  const auto width = static_cast<std::size_t>(box.extent(0));
-  const auto height = static_cast<std::size_t>(box.extent(1));
-  slab.row_stride_bytes = width * sizeof(T);
-  slab.storage.resize(width * height * static_cast<std::size_t>(box.extent(2)) * sizeof(T));
+  slab.allocate(box, sizeof(T));
   std::byte* to = slab.storage.data();
   for (std::int32_t k = box.lo[2]; k <= box.hi[2]; ++k) {
-    slab.planes.push_back(to);
     for (std::int32_t j = box.lo[1]; j <= box.hi[1]; ++j, to += slab.row_stride_bytes) {
       const auto row =
           static_cast<std::size_t>(j + dims[1] * k) * static_cast<std::size_t>(dims[0]);

@@ -6,7 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include "field/box_reader.hpp"
 #include "mc/field.hpp"
 #include "support/memory_readers.hpp"
 
@@ -174,15 +173,16 @@ TEST(CropView, PointsIntoTheWholeVolume) {
 }
 
 /// Makes samples for every read, and so should not be asked for whole planes.
-class DearSlabs final : public SlabReader, public field::BoxReader {
+class DearSlabs final : public SlabReader {
  public:
   explicit DearSlabs(const MemorySlabs& slabs) : slabs_(slabs) {}
 
   [[nodiscard]] const Volume& volume() const override { return slabs_.volume(); }
   void read(std::int32_t, std::int32_t, Slab&) const override { ADD_FAILURE() << "all of a plane"; }
   void read_box(const IndexBox& box, std::span<std::byte> out) const override {
-    field::read_box(slabs_, box, out);
+    slabs_.read_box(box, out);
   }
+  [[nodiscard]] bool reads_boxes_cheaply() const override { return true; }
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
 
  private:

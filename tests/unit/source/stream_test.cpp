@@ -137,9 +137,7 @@ TEST(Streams, PlanesPassByOnceAndAreShared) {
   const std::string bytes = counting_bytes(2 * 3 * 9);
   const Fifo fifo(folder, bytes);
   const Source source = test::open({fifo.path()}, raw({2, 3, 9}, SampleType::u8));
-  const SlabReader& planes = test::slabs(source);
-  EXPECT_TRUE(planes.reads_once());
-  EXPECT_FALSE(planes.rereads_cheaply());
+  PlaneStream& planes = test::stream(source);
   Slab first, second, third;
   planes.read(0, 4, first);
   planes.read(2, 6, second);
@@ -148,9 +146,9 @@ TEST(Streams, PlanesPassByOnceAndAreShared) {
   EXPECT_EQ(bytes_of(second, 6), bytes.substr(12, 24));
   EXPECT_EQ(bytes_of(third, 6), bytes.substr(30));
   EXPECT_EQ(first.planes[2], second.planes[0]);
-  EXPECT_EQ(planes.seen().min, 0);
-  EXPECT_EQ(planes.seen().max, 53);
-  EXPECT_EQ(planes.seen().n_samples, 54U);
+  EXPECT_EQ(planes.statistics().min, 0);
+  EXPECT_EQ(planes.statistics().max, 53);
+  EXPECT_EQ(planes.statistics().n_samples, 54U);
 }
 
 TEST(Streams, MemoryOfPlanesIsUsedAgain) {
@@ -160,7 +158,7 @@ TEST(Streams, MemoryOfPlanesIsUsedAgain) {
   Slab slab;
   std::set<const std::byte*> places;
   for (std::int32_t k = 0; k < 99; ++k) {
-    test::slabs(source).read(k, k + 2, slab);
+    test::stream(source).read(k, k + 2, slab);
     places.insert(slab.planes.begin(), slab.planes.end());
   }
   EXPECT_LE(places.size(), 3U);
@@ -170,9 +168,11 @@ TEST(Streams, KeptPlanesAreAnOrdinaryReader) {
   const Folder folder;
   const std::string bytes = counting_bytes(2 * 3 * 9);
   const Fifo fifo(folder, bytes);
-  const Source source = test::open({fifo.path()}, raw({2, 3, 9}, SampleType::u8));
-  std::get<std::unique_ptr<SlabReader>>(source.reader)->keep_planes(silent_progress());
-  EXPECT_FALSE(test::slabs(source).reads_once());
+  Source source = test::open({fifo.path()}, raw({2, 3, 9}, SampleType::u8));
+  EXPECT_TRUE(is_stream(source.reader));
+  EXPECT_TRUE(spool_stream(source.reader, silent_progress()));
+  EXPECT_FALSE(is_stream(source.reader));
+  EXPECT_FALSE(spool_stream(source.reader, silent_progress()));
   EXPECT_EQ(test::all_bytes(test::slabs(source)), bytes);
   EXPECT_EQ(test::all_bytes(test::slabs(source)), bytes);
 }
@@ -183,7 +183,7 @@ TEST(Streams, OnlyWhoAsksMeetsThem) {
   SourceOptions options = raw({2, 2, 2}, SampleType::u8);
   options.streams = false;
   const Source source = test::open({fifo.path()}, options);
-  EXPECT_FALSE(test::slabs(source).reads_once());
+  EXPECT_FALSE(is_stream(source.reader));
   EXPECT_EQ(test::all_bytes(test::slabs(source)), counting_bytes(8));
 }
 
@@ -196,8 +196,8 @@ TEST(Streams, WrongLengthsAreFoundWithTheLastPlane) {
     return error_of([&] {
              const Source source = test::open({fifo.path()}, options);
              Slab slab;
-             test::slabs(source).read(0, 2, slab);
-             test::slabs(source).read(1, 3, slab);
+             test::stream(source).read(0, 2, slab);
+             test::stream(source).read(1, 3, slab);
            })
         .substr(2 + fifo.path().size());
   };
