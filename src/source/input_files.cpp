@@ -11,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "base/text.hpp"
 #include "source/natural_order.hpp"
 #include "source/text.hpp"
 
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 /// Files that lie beside slices and describe them; a series never holds them.
 bool describes_others(const std::string& path) {
   constexpr std::array<std::string_view, 5> kDescribing{"nhdr", "json", "md", "txt", "xml"};
-  return std::ranges::find(kDescribing, extension_of(path)) != kDescribing.end();
+  return std::ranges::find(kDescribing, base::extension_of(path)) != kDescribing.end();
 }
 
 std::vector<std::string> without_descriptions(std::vector<std::string> paths, Progress& progress) {
@@ -123,18 +124,10 @@ void check_within(const std::string& root, const std::string& path) {
   }
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  if (!extension.empty()) {
-    extension.erase(0, 1);
-  }
-  return lower_case(extension);
-}
-
 std::string unpacked_extension_of(const std::string& path) {
-  const std::string extension = extension_of(path);
+  const std::string extension = base::extension_of(path);
   const bool packed = extension == "gz" || extension == "zst";
-  return packed ? extension_of(fs::path(path).stem().string()) : extension;
+  return packed ? base::extension_of(fs::path(path).stem().string()) : extension;
 }
 
 InputFiles expand_inputs(std::span<const std::string> inputs, Progress& progress) {

@@ -32,9 +32,8 @@ void check_regular(const std::string& path);
 /// Errors   input: the path leads out; usage: there is no such folder.
 void check_within(const std::string& root, const std::string& path);
 
-/// The extension in lower case without its dot, empty where there is none.
-std::string extension_of(const std::string& path);
-/// The same without what packing adds: "raw" of "head.raw.gz".
+/// The extension in lower case without its dot and without what packing adds: "raw" of
+/// "head.raw.gz". Empty: it has none.
 std::string unpacked_extension_of(const std::string& path);
 
 }  // namespace mc::source

@@ -50,6 +50,27 @@ void check_placement(const SourceOptions& options) {
   }
 }
 
+bool places(const SourceOptions& options) {
+  return options.spacing.has_value() || options.origin.has_value();
+}
+
+std::unique_ptr<SlabReader> placed_reader(std::unique_ptr<SlabReader> reader,
+                                          const SourceOptions& options) {
+  return std::make_unique<PlacedReader>(std::move(reader), options);
+}
+
+void check_map(const Affine& to_world, std::string_view place) {
+  const double volume = to_world.determinant();
+  if (!std::ranges::all_of(to_world.m, finite) || !finite(volume) || volume == 0) {
+    throw Error(ErrorKind::input, place,
+                "the map from samples to the world is singular or not finite");
+  }
+}
+
+}  // namespace mc::source
+
+namespace mc {
+
 Affine placed(Affine to_world, const SourceOptions& options) {
   if (options.spacing) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -70,21 +91,4 @@ Affine placed(Affine to_world, const SourceOptions& options) {
   return to_world;
 }
 
-bool places(const SourceOptions& options) {
-  return options.spacing.has_value() || options.origin.has_value();
-}
-
-std::unique_ptr<SlabReader> placed_reader(std::unique_ptr<SlabReader> reader,
-                                          const SourceOptions& options) {
-  return std::make_unique<PlacedReader>(std::move(reader), options);
-}
-
-void check_map(const Affine& to_world, std::string_view place) {
-  const double volume = to_world.determinant();
-  if (!std::ranges::all_of(to_world.m, finite) || !finite(volume) || volume == 0) {
-    throw Error(ErrorKind::input, place,
-                "the map from samples to the world is singular or not finite");
-  }
-}
-
-}  // namespace mc::source
+}  // namespace mc

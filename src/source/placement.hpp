@@ -13,10 +13,6 @@ namespace mc::source {
 /// Errors   usage: a spacing that is zero, negative or not finite; an origin that is not finite.
 void check_placement(const SourceOptions& options);
 
-/// `spacing` replaces the lengths of the axes and keeps their directions; `origin` replaces the
-/// world position of sample 0,0,0.
-[[nodiscard]] Affine placed(Affine to_world, const SourceOptions& options);
-
 /// Whether the options move anything.
 [[nodiscard]] bool places(const SourceOptions& options);
 

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <utility>
 
 #include "mc/source.hpp"
-#include "source/format.hpp"
-#include "source/image/open_image.hpp"
-#include "source/image/slices.hpp"
-#include "source/input_files.hpp"
-#include "source/mapped_file.hpp"
-#include "source/nrrd/nrrd.hpp"
+#include "source/formats.hpp"
 #include "source/open_named.hpp"
 #include "source/placement.hpp"
-#include "source/raw/raw.hpp"
-#include "source/spec/spec.hpp"
-#include "source/stream/input_file.hpp"
+#include "source/source_input.hpp"
 #include "source/text.hpp"
-#include "source/vdb/vdb.hpp"
 
 // What an input is, and who reads it. Decided by --from, then by --dims with --type (raw), then by
 // content, then by extension.
@@ -30,193 +21,160 @@ namespace {
 
 constexpr std::string_view kRawRemedy = "for raw data give --dims X,Y[,Z] and --type";
 
-struct Decision {
-  Format format = Format::raw;
-  std::optional<InputFile> file;  ///< of formats that are one file
-};
-
-[[noreturn]] void unsupported(Format format, std::string_view place) {
-  if (format == Format::mesh) {
-    throw Error(ErrorKind::input, place, "a mesh, but a volume was expected");
+[[noreturn]] void unsupported(const SourceFormat& format, std::string_view place) {
+  if (!format.refusal.empty()) {
+    throw Error(ErrorKind::input, place, format.refusal);
   }
   throw Error(ErrorKind::input, place,
-              fmt::format("{} is not supported by this version", display_name(format)),
+              fmt::format("{} is not supported by this version", format.display),
               "convert it to VDB, NRRD or raw first");
 }
 
-/// What the content says, then the name, that of a packed file without .gz or .zst.
-std::optional<Format> recognised(InputFile& file, const std::string& path) {
-  constexpr std::size_t kHead = 512, kDocumentHead = std::size_t{1} << 20U;
-  std::optional<Format> format = format_of_content(file.head(kHead));
-  if (!format && looks_like_json(file.head(kHead)) && looks_like_spec(file.head(kDocumentHead))) {
-    format = Format::spec;
-  }
-  return format ? format : format_of_extension(unpacked_extension_of(path));
+bool is_readable(const SourceFormat& format) { return format.open != nullptr; }
+
+/// What the content of the first file says, then its name, that of a packed file without .gz or
+/// .zst. Null: nothing.
+const SourceFormat* recognised_format(SourceInput& input, const SourceOptions& options) {
+  const SourceFormats further = options.further_formats;
+  const SourceFormat* format = format_of_content(input, further);
+  return format != nullptr
+             ? format
+             : format_of_extension(unpacked_extension_of(input.paths().front()), further);
 }
 
-/// Several files without --dims and --type: pictures by the first of them. Else no volume, but the
+/// Several files without --dims and --type: slices by the first of them. Else no volume, but the
 /// first tells what is missing.
-Decision decide_by_series(const InputFiles& inputs) {
-  const std::string& first = inputs.paths.front();
-  InputFile file(first);
-  const std::optional<Format> format = recognised(file, first);
-  if (format && is_image(*format)) {
-    return {*format, std::nullopt};
+const SourceFormat& decide_by_series(SourceInput& input, const SourceOptions& options) {
+  const SourceFormat* format = recognised_format(input, options);
+  if (format != nullptr && format->several_files && !format->headerless) {
+    return *format;
   }
-  if (format && !is_readable(*format)) {
-    unsupported(*format, inputs.place);
+  if (format != nullptr && !is_readable(*format)) {
+    unsupported(*format, input.place());
   }
-  if (inputs.from_folder) {
-    throw Error(ErrorKind::input, inputs.place, "a folder with no known file", kRawRemedy);
+  if (input.state().files.from_folder) {
+    throw Error(ErrorKind::input, input.place(), "a folder with no known file", kRawRemedy);
   }
   throw Error(
-      ErrorKind::usage, inputs.place,
-      fmt::format("{} files, but only slices make one volume together", inputs.paths.size()),
+      ErrorKind::usage, input.place(),
+      fmt::format("{} files, but only slices make one volume together", input.paths().size()),
       kRawRemedy);
 }
 
-Decision decide_by_file(const InputFiles& inputs, const SourceOptions& options) {
-  const std::string& path = inputs.paths.front();
-  InputFile file(path);
-  file.refuse_device();
+/// Goes on with the header beside the input, if there is one. Returns its format.
+const SourceFormat* take_sidecar(SourceInput& input, const SourceFormat& format,
+                                 const SourceOptions& options) {
+  if (format.sidecar.empty()) return nullptr;
+  std::filesystem::path sidecar(input.paths().front());
+  sidecar.replace_extension(format.sidecar);
+  std::error_code ignored;
+  if (!std::filesystem::exists(sidecar, ignored)) return nullptr;
+  check_within(options.root, sidecar.string());
+  input.state().files.paths.front() = sidecar.string();
+  input.state().first.reset();
+  first_file(input);
+  return format_of_extension(format.sidecar, options.further_formats);
+}
+
+const SourceFormat& decide_by_file(SourceInput& input, const SourceOptions& options) {
+  first_file(input).refuse_device();
   const bool wants_raw = !options.dims.empty() || options.type.has_value();
-  const std::optional<Format> format = recognised(file, path);
-  if (!format && wants_raw) {
-    return {};
+  const SourceFormat* format = recognised_format(input, options);
+  if (format == nullptr && wants_raw) {
+    return headerless_format(options.further_formats);
   }
-  if (!format) {
-    throw Error(ErrorKind::usage, inputs.place,
+  if (format == nullptr) {
+    throw Error(ErrorKind::usage, input.place(),
                 "neither its content nor its extension says what it is",
                 fmt::format("name it by --from, or {}", kRawRemedy));
   }
   if (!is_readable(*format)) {
-    unsupported(*format, inputs.place);
+    unsupported(*format, input.place());
   }
-  const std::filesystem::path sidecar = std::filesystem::path(path).replace_extension(".nhdr");
-  std::error_code ignored;
-  if (format == Format::raw && !wants_raw && std::filesystem::exists(sidecar, ignored)) {
-    check_within(options.root, sidecar.string());
-    return {Format::nrrd, InputFile(sidecar.string())};
-  }
-  return {*format, std::move(file)};
+  const SourceFormat* sidecar = wants_raw ? nullptr : take_sidecar(input, *format, options);
+  return sidecar != nullptr ? *sidecar : *format;
 }
 
-Decision decide(const InputFiles& inputs, const SourceOptions& options) {
+const SourceFormat& decide_by_name(SourceInput& input, const SourceOptions& options) {
+  const SourceFormat* format = find_source_format(options.from, options.further_formats);
+  if (format == nullptr) {
+    throw Error(
+        ErrorKind::usage, "--from",
+        fmt::format("{} is no kind of input", quoted_text(options.from)),
+        fmt::format("choose one of {}", fmt::join(readable_names(options.further_formats), ", ")));
+  }
+  if (!is_readable(*format)) {
+    unsupported(*format, input.place());
+  }
+  if (format->several_files) {
+    return *format;
+  }
+  if (input.paths().size() > 1) {
+    throw Error(
+        ErrorKind::usage, input.place(),
+        fmt::format("{} files, but --from {} reads one", input.paths().size(), options.from));
+  }
+  first_file(input);
+  return *format;
+}
+
+const SourceFormat& decide(SourceInput& input, const SourceOptions& options) {
   if (!options.from.empty()) {
-    const std::optional<Format> format = format_named(options.from);
-    if (!format) {
-      throw Error(ErrorKind::usage, "--from",
-                  fmt::format("{} is no kind of input", quoted_text(options.from)),
-                  "choose one of vdb, raw, nrrd, spec, exr, png");
-    }
-    if (!is_readable(*format)) {
-      unsupported(*format, inputs.place);
-    }
-    if (format == Format::raw) {
-      return {};
-    }
-    if (is_image(*format)) {
-      return {*format, std::nullopt};
-    }
-    if (inputs.paths.size() > 1) {
-      throw Error(
-          ErrorKind::usage, inputs.place,
-          fmt::format("{} files, but --from {} reads one", inputs.paths.size(), options.from));
-    }
-    return {*format, InputFile(inputs.paths.front())};
+    return decide_by_name(input, options);
   }
   if (!options.dims.empty() && options.type) {
-    return {};
+    return headerless_format(options.further_formats);
   }
-  if (inputs.from_folder || inputs.paths.size() > 1) {
-    return decide_by_series(inputs);
+  if (input.state().files.from_folder || input.paths().size() > 1) {
+    return decide_by_series(input, options);
   }
-  return decide_by_file(inputs, options);
+  return decide_by_file(input, options);
 }
 
 /// Options that say what raw data is contradict a file that says it itself.
-void check_options(const InputFiles& inputs, Format format, const SourceOptions& options) {
-  const auto refuse = [&](bool given, std::string_view option, std::string_view what) {
-    if (given) {
+void check_options(const SourceInput& input, const SourceFormat& format,
+                   const SourceOptions& options) {
+  const auto refuse = [&](bool given, bool taken, std::string_view option, std::string_view what) {
+    if (given && !taken) {
       throw Error(ErrorKind::usage, option,
-                  fmt::format("is for {}, but {} is {}", what, inputs.place, display_name(format)));
+                  fmt::format("is for {}, but {} is {}", what, input.place(), format.display));
     }
   };
-  refuse(options.channel.has_value() && !is_image(format), "--channel", "pictures");
-  refuse(options.grid.has_value() && format != Format::vdb, "--grid", "VDB files");
-  if (format != Format::raw) {
-    refuse(!options.dims.empty(), "--dims", "raw data");
-    refuse(options.type.has_value(), "--type", "raw data");
-    refuse(options.endian != std::endian::little, "--endian", "raw data");
-    refuse(options.skip_bytes != 0, "--skip", "raw data");
-  }
+  const SourceTakes& takes = format.takes;
+  refuse(options.channel.has_value(), takes.channel, "--channel", "pictures");
+  refuse(options.grid.has_value(), takes.grid, "--grid", "VDB files");
+  refuse(!options.dims.empty(), takes.dims, "--dims", "raw data");
+  refuse(options.type.has_value(), takes.type, "--type", "raw data");
+  refuse(options.endian != std::endian::little, takes.endian, "--endian", "raw data");
+  refuse(options.skip_bytes != 0, takes.skip, "--skip", "raw data");
 }
 
-MappedFile mapped(Decision decision, Progress& progress) {
-  return MappedFile(std::move(*decision.file), MappedFile::kUnlimited, progress);
-}
-
-/// From the bytes that told what it is, where there is one file only.
-std::unique_ptr<SlabReader> open_pictures(const InputFiles& inputs, Decision decision,
-                                          const SourceOptions& options, Progress& progress) {
-  const Format format = decision.format;
-  std::vector<MappedFile> files;
-  if (decision.file) {
-    files.push_back(mapped(std::move(decision), progress));
-  } else {
-    for (const std::string& path : inputs.paths) {
-      files.emplace_back(InputFile(path), MappedFile::kUnlimited, progress);
-    }
-  }
-  return open_slices(std::move(files), format, options, progress);
-}
-
-Source open_decided(const InputFiles& inputs, Decision decision, const SourceOptions& options,
-                    Progress& progress, SpecNesting within = {}) {
-  Source source;
-  source.place = inputs.place;
-  switch (decision.format) {
-    case Format::nrrd:
-      source.reader = open_nrrd(std::move(*decision.file), options, progress);
-      break;
-    case Format::vdb: {
-      VdbSource vdb = open_vdb(mapped(std::move(decision), progress), options);
-      source.reader = std::move(vdb.reader);
-      source.other_grids = std::move(vdb.other_grids);
-      break;
-    }
-    case Format::spec: {
-      // From the bytes that told what it is: a FIFO gives them once.
-      within.root = options.root;
-      within.left = std::min(within.left, SpecNesting::most_samples(options.memory_bytes));
-      const MappedFile file = mapped(std::move(decision), progress);
-      std::unique_ptr<SlabReader> spec = open_spec_text(file.place(), file.text(), within);
-      source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
-      break;
-    }
-    case Format::exr:
-    case Format::png:
-      source.reader = open_pictures(inputs, std::move(decision), options, progress);
-      break;
-    default:
-      source.reader = open_raw(inputs, options, progress);
-  }
+Source open_decided(SourceInput& input, const SourceFormat& format, const SourceOptions& options,
+                    Progress& progress) {
+  Source source = format.open(input, options, progress);
+  source.place = input.place();
   return source;
 }
 
+SourceInput input_of(std::span<const std::string> inputs, Progress& progress,
+                     const SpecNesting* within = nullptr) {
+  return SourceInput(std::make_unique<SourceInput::State>(
+      SourceInput::State{expand_inputs(inputs, progress), progress, within}));
+}
+
 /// What a document's volume is: it has to say that, and its sizes, itself.
-Decision decide_by_content(const InputFiles& inputs, const SourceOptions& options) {
+const SourceFormat& decide_by_content(SourceInput& input, const SourceOptions& options) {
   try {
-    Decision decision = decide(inputs, options);
-    if (decision.format != Format::raw) {
-      return decision;
+    const SourceFormat& format = decide(input, options);
+    if (!format.headerless) {
+      return format;
     }
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::usage) {
       throw;
     }
   }
-  throw Error(ErrorKind::input, inputs.place, "does not say what volume it is",
+  throw Error(ErrorKind::input, input.place(), "does not say what volume it is",
               "give raw data a NRRD header (.nhdr) and name that");
 }
 
@@ -224,22 +182,22 @@ Decision decide_by_content(const InputFiles& inputs, const SourceOptions& option
 
 Source open_named(const std::string& path, const std::optional<std::string>& grid,
                   const SpecNesting& within) {
-  const InputFiles inputs = expand_inputs({&path, 1}, silent_progress());
-  for (const std::string& each : inputs.paths) {
+  SourceInput input = input_of({&path, 1}, silent_progress(), &within);
+  for (const std::string& each : input.paths()) {
     check_within(within.root, each);
     check_regular(each);
   }
   SourceOptions options;
   options.root = within.root;
+  options.further_formats = within.further_formats;
   options.memory_bytes = 2 * within.left * sizeof(float);  // so that half of it is left
-  Decision decision = decide_by_content(inputs, options);
-  if (grid && decision.format != Format::vdb) {
-    throw Error(ErrorKind::input, path,
-                fmt::format("{} has no grids by name", display_name(decision.format)),
+  const SourceFormat& format = decide_by_content(input, options);
+  if (grid && !format.takes.grid) {
+    throw Error(ErrorKind::input, path, fmt::format("{} has no grids by name", format.display),
                 "leave out \"grid\"");
   }
   options.grid = grid;
-  return open_decided(inputs, std::move(decision), options, silent_progress(), within);
+  return open_decided(input, format, options, silent_progress());
 }
 
 }  // namespace mc::source
@@ -249,22 +207,22 @@ namespace mc {
 Source open_source(std::span<const std::string> inputs, const SourceOptions& options,
                    Progress& progress) {
   source::check_placement(options);
-  const source::InputFiles files = source::expand_inputs(inputs, progress);
-  source::Decision decision = source::decide(files, options);
-  source::check_options(files, decision.format, options);
-  return source::open_decided(files, std::move(decision), options, progress);
+  SourceInput input = source::input_of(inputs, progress);
+  const SourceFormat& format = source::decide(input, options);
+  source::check_options(input, format, options);
+  return source::open_decided(input, format, options, progress);
 }
 
 std::vector<GridDescription> describe_source(std::span<const std::string> inputs,
                                              const SourceOptions& options, Progress& progress) {
   source::check_placement(options);
-  const source::InputFiles files = source::expand_inputs(inputs, progress);
-  source::Decision decision = source::decide(files, options);
-  source::check_options(files, decision.format, options);
-  if (decision.format == source::Format::vdb) {
-    return source::describe_vdb(source::mapped(std::move(decision), progress));
+  SourceInput input = source::input_of(inputs, progress);
+  const SourceFormat& format = source::decide(input, options);
+  source::check_options(input, format, options);
+  if (format.describe != nullptr) {
+    return format.describe(input, progress);
   }
-  const Source opened = source::open_decided(files, std::move(decision), options, progress);
+  const Source opened = source::open_decided(input, format, options, progress);
   const Volume& volume = volume_of(opened.reader);
   return {{volume, sample_name(volume.type), ""}};
 }

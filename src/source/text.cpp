@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "source/text.hpp"
 
-#include <algorithm>
-
 namespace mc::source {
-
-std::string lower_case(std::string_view text) {
-  std::string out(text);
-  std::ranges::transform(out, out.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return out;
-}
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r");

@@ -8,8 +8,6 @@
 
 namespace mc::source {
 
-/// ASCII letters in lower case.
-[[nodiscard]] std::string lower_case(std::string_view text);
 /// Without blanks, tabs and carriage returns at either end.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 /// In quotes, for messages: at most 60 bytes, nothing that a terminal would obey.

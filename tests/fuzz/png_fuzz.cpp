@@ -10,6 +10,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  mc::test::open_and_decode(mc::source::Format::png, std::as_bytes(std::span(data, size)));
+  mc::test::open_and_decode(mc::source::ImageKind::png, std::as_bytes(std::span(data, size)));
   return 0;
 }

@@ -13,13 +13,13 @@ namespace mc::test {
 
 /// Opens the bytes as a picture and decodes every channel of every part that is not large. True:
 /// all of it was readable. Anything but an Error of kind input or limit comes out.
-inline bool open_and_decode(source::Format format, std::span<const std::byte> bytes) {
+inline bool open_and_decode(source::ImageKind kind, std::span<const std::byte> bytes) {
   constexpr std::int64_t kMostPixels = 1 << 20;
   if (bytes.empty()) return false;
   const MemoryFile memory(bytes);
   try {
     const source::MappedFile file(memory.path());
-    const auto image = source::open_image(format, file);
+    const auto image = source::open_image(kind, file);
     for (std::size_t p = 0; p < image->parts().size(); ++p) {
       const source::ImagePart& part = image->parts()[p];
       if (std::int64_t{part.width} * part.height > kMostPixels) continue;

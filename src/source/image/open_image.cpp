@@ -7,6 +7,8 @@
 #include "base/module.hpp"
 #endif
 #include "mc/base.hpp"
+#include "source/formats.hpp"
+#include "source/image/image_formats.hpp"
 
 // From a picture's format to what reads it.
 
@@ -33,27 +35,16 @@ OpenImage opener(const std::string& /*place*/) { return mc_open_image; }
 
 #endif
 
-[[noreturn]] void absent(Format format, const std::string& place) {
-  throw Error(ErrorKind::input, place,
-              "this build of mc has no support for " + std::string(display_name(format)) + " files",
-              std::string("install the package ") +
-                  (format == Format::png ? "libpng-dev" : "libopenexr-dev") + " and build again");
-}
-
 }  // namespace
 
-bool is_image(Format format) { return format == Format::png || format == Format::exr; }
-
-std::unique_ptr<ImageFile> open_image(Format format, const MappedFile& file) {
+std::unique_ptr<ImageFile> open_image(ImageKind kind, const MappedFile& file) {
   const std::string& place = file.place();
 #if MC_WITH_PNG || MC_WITH_EXR
-  const bool exr = format == Format::exr;
-  if ((exr && MC_WITH_EXR) || (!exr && MC_WITH_PNG)) {
-    const ImageKind kind = exr ? ImageKind::exr : ImageKind::png;
+  if (format_of(kind).built_in) {
     return std::unique_ptr<ImageFile>(opener(place)(kind, place, file.bytes()));
   }
 #endif
-  absent(format, place);
+  refuse_absent(format_of(kind), place);
 }
 
 std::optional<std::size_t> channel_named(const ImagePart& part,

@@ -3,19 +3,14 @@
 
 #include <memory>
 
-#include "source/format.hpp"
 #include "source/image/module/image_file.hpp"
 #include "source/mapped_file.hpp"
 
 namespace mc::source {
 
-/// PNG and OpenEXR.
-[[nodiscard]] bool is_image(Format format);
-
-/// Opens a picture; `file` must outlive it. Precondition: is_image(format). The module is loaded
-/// first where it is not yet. Errors   as OpenImage; input too: this build has no such reader, or
-/// its library is not there.
-std::unique_ptr<ImageFile> open_image(Format format, const MappedFile& file);
+/// Opens a picture; `file` must outlive it. The module is loaded at the first call. Errors   as
+/// OpenImage; input too: this build has no such reader, or its library is not there.
+std::unique_ptr<ImageFile> open_image(ImageKind kind, const MappedFile& file);
 
 /// The place of the channel called `name`; without a name of Y, else of R, else 0, the first.
 /// nullopt: there is none of that name.

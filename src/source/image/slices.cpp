@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/checked.hpp"
+#include "source/image/image_formats.hpp"
 #include "source/image/open_image.hpp"
 #include "source/image/series.hpp"
 #include "source/placement.hpp"
@@ -67,15 +68,15 @@ class SliceReader final : public SlabReader {
   std::vector<Plane> planes_;
 };
 
-std::vector<std::unique_ptr<OpenFile>> open_all(std::vector<MappedFile> files, Format format) {
+std::vector<std::unique_ptr<OpenFile>> open_all(std::vector<MappedFile> files, ImageKind kind) {
   std::vector<std::unique_ptr<OpenFile>> out;
   for (MappedFile& file : files) {
-    if (format_of_content(file.text()) != format) {
+    if (image_kind(file.text()) != kind) {
       throw Error(ErrorKind::input, file.place(),
-                  fmt::format("is no {} file", display_name(format)));
+                  fmt::format("is no {} file", format_of(kind).display));
     }
     auto open = std::make_unique<OpenFile>(OpenFile{std::move(file), nullptr});
-    open->image = open_image(format, open->file);
+    open->image = open_image(kind, open->file);
     out.push_back(std::move(open));
   }
   return out;
@@ -173,7 +174,7 @@ void check_complete(const std::vector<std::unique_ptr<OpenFile>>& files,
   }
 }
 
-Volume volume_of_planes(const std::vector<Plane>& planes, Format format,
+Volume volume_of_planes(const std::vector<Plane>& planes, ImageKind kind,
                         const SourceOptions& options) {
   const Plane& first = planes.front();
   const ImagePart& picture = first.picture();
@@ -185,7 +186,7 @@ Volume volume_of_planes(const std::vector<Plane>& planes, Format format,
     volume.lattice.to_world = Affine::scale_translate(
         {1, 1, 1}, {double(picture.offset[0]), double(picture.offset[1]), 0});
   }
-  volume.format = format == Format::exr ? "exr" : "png";
+  volume.format = format_of(kind).name;
   volume.type = first.type();
   volume.lattice.box = {
       {0, 0, 0},
@@ -197,9 +198,9 @@ Volume volume_of_planes(const std::vector<Plane>& planes, Format format,
 
 }  // namespace
 
-std::unique_ptr<SlabReader> open_slices(std::vector<MappedFile> files, Format format,
+std::unique_ptr<SlabReader> open_slices(std::vector<MappedFile> files, ImageKind kind,
                                         const SourceOptions& options, Progress& progress) {
-  auto open = open_all(std::move(files), format);
+  auto open = open_all(std::move(files), kind);
   const std::string channel = choose_channel(*open.front(), options.channel, progress);
   std::vector<Plane> planes = planes_with(open, channel);
   check_alike(planes);
@@ -210,7 +211,7 @@ std::unique_ptr<SlabReader> open_slices(std::vector<MappedFile> files, Format fo
                 fmt::format("{}x{} pixels: expected at least two along each axis", picture.width,
                             picture.height));
   }
-  Volume volume = volume_of_planes(planes, format, options);
+  Volume volume = volume_of_planes(planes, kind, options);
   return std::make_unique<SliceReader>(std::move(volume), std::move(open), std::move(planes));
 }
 

@@ -7,7 +7,7 @@
 
 #include "mc/field.hpp"
 #include "mc/source.hpp"
-#include "source/format.hpp"
+#include "source/image/module/image_file.hpp"
 #include "source/mapped_file.hpp"
 
 namespace mc::source {
@@ -23,7 +23,7 @@ namespace mc::source {
 /// size,
 ///          place or type, a slice that is missing by the files' numbers or by what mc wrote.
 /// Threads  read() decodes its planes one by one, and may be called from several threads.
-std::unique_ptr<SlabReader> open_slices(std::vector<MappedFile> files, Format format,
+std::unique_ptr<SlabReader> open_slices(std::vector<MappedFile> files, ImageKind kind,
                                         const SourceOptions& options, Progress& progress);
 
 }  // namespace mc::source

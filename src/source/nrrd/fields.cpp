@@ -8,6 +8,7 @@
 #include <charconv>
 #include <utility>
 
+#include "base/text.hpp"
 #include "source/text.hpp"
 
 namespace mc::source {
@@ -26,7 +27,7 @@ constexpr std::array<std::string_view, 31> kKnown{
 
 /// One spelling for each field: "datafile" is "data file", "centerings" is "centers".
 std::string field_name(std::string_view written) {
-  std::string name = lower_case(trimmed(written));
+  std::string name = base::lower_case(trimmed(written));
   std::string packed = name;
   std::erase(packed, ' ');
   if (packed == "centerings") {

@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "base/text.hpp"
 #include "source/nrrd/fields.hpp"
 #include "source/placement.hpp"
 #include "source/text.hpp"
@@ -126,7 +127,7 @@ std::optional<SampleType> type_named(const std::string& name) {
 }
 
 void set_type(const NrrdFields& fields, NrrdHeader& header) {
-  const std::string name = lower_case(fields.required("type"));
+  const std::string name = base::lower_case(fields.required("type"));
   header.type = type_named(name);
   if (!header.type) {
     fields.fail("type", fmt::format("samples of type {} cannot be read: 8- to 64-bit integers "
@@ -134,7 +135,7 @@ void set_type(const NrrdFields& fields, NrrdHeader& header) {
                                     quoted_text(name)));
   }
   if (const auto endian = fields.find("endian")) {
-    const std::string order = lower_case(*endian);
+    const std::string order = base::lower_case(*endian);
     if (order != "little" && order != "big") {
       fields.fail("endian", "little or big was expected");
     }
@@ -145,7 +146,7 @@ void set_type(const NrrdFields& fields, NrrdHeader& header) {
 }
 
 void set_encoding(const NrrdFields& fields, NrrdHeader& header) {
-  const std::string encoding = lower_case(fields.required("encoding"));
+  const std::string encoding = base::lower_case(fields.required("encoding"));
   header.gzipped = encoding == "gzip" || encoding == "gz";
   if (!header.gzipped && encoding != "raw") {
     fields.fail("encoding",

@@ -14,11 +14,13 @@
 
 #include "field/volume_names.hpp"
 #include "source/input_files.hpp"
+#include "source/magic.hpp"
 #include "source/mapped_planes.hpp"
 #include "source/nrrd/fields.hpp"
 #include "source/nrrd/header.hpp"
 #include "source/nrrd/nrrd_samples.hpp"
 #include "source/placement.hpp"
+#include "source/source_input.hpp"
 #include "source/text.hpp"
 
 namespace mc::source {
@@ -160,7 +162,7 @@ void set_own_pairs(const std::map<std::string, std::string, std::less<>>& pairs,
 Volume nrrd_volume(const NrrdHeader& header, const SourceOptions& options,
                    const std::string& place) {
   Volume volume;
-  volume.format = "nrrd";
+  volume.format = kNrrdFormat.name;
   volume.lattice.box.hi = {header.dims[0] - 1, header.dims[1] - 1, header.dims[2] - 1};
   check_map(header.to_world, place);
   volume.lattice.to_world = placed(header.to_world, options);
@@ -251,7 +253,10 @@ VolumeReader open_detached(const NrrdHeader& header, const std::string& place, c
 
 }  // namespace
 
-VolumeReader open_nrrd(InputFile file, const SourceOptions& options, Progress& progress) {
+Recognition recognise_nrrd(std::string_view head) { return recognised(has_magic(head, "NRRD000")); }
+
+Source open_nrrd(SourceInput& input, const SourceOptions& options, Progress& progress) {
+  InputFile file = take_file(input);
   const std::string place = file.place();
   const NrrdHeader header = parse_nrrd_header(head_of(file), place);
   for (const std::string& field : header.unknown_fields) {
@@ -262,9 +267,11 @@ VolumeReader open_nrrd(InputFile file, const SourceOptions& options, Progress& p
   if (!n_bytes) {
     throw Error(ErrorKind::input, place, "sizes: more bytes than 64 bits can count");
   }
-  return header.data_files
-             ? open_detached(header, place, volume, *n_bytes, options, progress)
-             : open_attached(std::move(file), header, volume, *n_bytes, options, progress);
+  Source source;
+  source.reader = header.data_files
+                      ? open_detached(header, place, volume, *n_bytes, options, progress)
+                      : open_attached(std::move(file), header, volume, *n_bytes, options, progress);
+  return source;
 }
 
 }  // namespace mc::source

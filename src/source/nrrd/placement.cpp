@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text.hpp"
 #include "source/nrrd/fields.hpp"
 #include "source/placement.hpp"
 #include "source/text.hpp"
@@ -37,7 +38,7 @@ std::vector<Vec3> parse_vectors(const NrrdFields& fields, std::string_view name)
   const std::string text = fields.required(name);
   std::string_view rest = trimmed(text);
   while (!rest.empty()) {
-    if (lower_case(rest.substr(0, 4)) == "none") {
+    if (base::lower_case(rest.substr(0, 4)) == "none") {
       rest = trimmed(rest.substr(4));
       continue;
     }
@@ -58,7 +59,8 @@ std::vector<Vec3> parse_vectors(const NrrdFields& fields, std::string_view name)
 }
 
 std::vector<std::string> centers(const NrrdFields& fields, const NrrdHeader& header) {
-  std::vector<std::string> words = split_words(lower_case(fields.find("centers").value_or("")));
+  std::vector<std::string> words =
+      split_words(base::lower_case(fields.find("centers").value_or("")));
   if (header.leading_axis && !words.empty()) {
     words.erase(words.begin());
   }
@@ -111,7 +113,7 @@ void flip_x(Affine& to_world) {
 }
 
 void set_space(const NrrdFields& fields, NrrdHeader& header) {
-  const std::string space = lower_case(fields.find("space").value_or(""));
+  const std::string space = base::lower_case(fields.find("space").value_or(""));
   const auto is = [&](std::string_view name, std::string_view brief) {
     return space == name || space == brief;
   };

@@ -11,7 +11,7 @@
 #include "base/checked.hpp"
 #include "source/mapped_planes.hpp"
 #include "source/placement.hpp"
-#include "source/stream/input_file.hpp"
+#include "source/source_input.hpp"
 #include "source/stream/streamed_planes.hpp"
 
 namespace mc::source {
@@ -64,12 +64,12 @@ void check_typed(const SourceOptions& options, const std::string& place) {
               skips ? "check --dims, --type and --skip" : "check --dims and --type");
 }
 
-/// Opens what holds `n_bytes`, the skipped ones among them. Samples that begin like packed data but
-/// have the right size are samples.
-InputFile open_sized(const std::string& path, std::uint64_t n_bytes) {
-  InputFile input(path);
-  const bool stored = input.packing() != Packing::none && input.stored_bytes() == n_bytes;
-  return stored ? InputFile(path, InputFile::Bytes::stored) : std::move(input);
+/// Opens file n, which holds `n_bytes`, the skipped ones among them. Samples that begin like packed
+/// data but have the right size are samples.
+InputFile open_sized(SourceInput& inputs, std::size_t n, std::uint64_t n_bytes) {
+  InputFile file = take_file(inputs, n);
+  const bool stored = file.packing() != Packing::none && file.stored_bytes() == n_bytes;
+  return stored ? InputFile(inputs.paths()[n], InputFile::Bytes::stored) : std::move(file);
 }
 
 /// A file of known size; of a stream no more was read than one byte too many.
@@ -132,7 +132,7 @@ std::int64_t counted_planes(const MappedFile& file, const SourceOptions& options
 
 Volume raw_volume(const SourceOptions& options, std::int64_t nz) {
   Volume volume;
-  volume.format = "raw";
+  volume.format = kRawFormat.name;
   volume.lattice.box.hi = {static_cast<std::int32_t>(options.dims[0] - 1),
                            static_cast<std::int32_t>(options.dims[1] - 1),
                            static_cast<std::int32_t>(nz - 1)};
@@ -143,12 +143,12 @@ Volume raw_volume(const SourceOptions& options, std::int64_t nz) {
 }
 
 /// Of a volume whose sizes are typed.
-VolumeReader open_sized_volume(const std::string& path, const SourceOptions& options,
+VolumeReader open_sized_volume(SourceInput& inputs, const SourceOptions& options,
                                Progress& progress) {
   const std::vector<std::int64_t>& dims = options.dims;
   const std::uint64_t n_bytes =
       *volume_bytes(dims[0], dims[1], dims[2], *options.type) + options.skip_bytes;
-  InputFile input = open_sized(path, n_bytes);
+  InputFile input = open_sized(inputs, 0, n_bytes);
   Volume volume = raw_volume(options, dims[2]);
   if (options.streams && !input.mappable()) {
     return std::make_unique<StreamedPlanes>(
@@ -162,9 +162,8 @@ VolumeReader open_sized_volume(const std::string& path, const SourceOptions& opt
 }
 
 /// Of a volume whose planes its size tells.
-std::unique_ptr<SlabReader> open_counted_volume(const std::string& path,
-                                                const SourceOptions& options, Progress& progress) {
-  MappedFile file(InputFile(path), MappedFile::kUnlimited, progress);
+std::unique_ptr<SlabReader> open_counted_volume(SourceInput& inputs, const SourceOptions& options) {
+  MappedFile file = map_file(inputs);
   const std::int64_t nz = counted_planes(file, options);
   if (nz < 2 || nz > kMostSamples) {
     throw Error(ErrorKind::input, file.place(),
@@ -177,11 +176,11 @@ std::unique_ptr<SlabReader> open_counted_volume(const std::string& path,
                                         static_cast<std::int32_t>(nz));
 }
 
-std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOptions& options,
+std::unique_ptr<SlabReader> open_series(SourceInput& inputs, const SourceOptions& options,
                                         Progress& progress) {
-  const auto n_files = static_cast<std::int64_t>(inputs.paths.size());
+  const auto n_files = static_cast<std::int64_t>(inputs.paths().size());
   if (options.dims.size() == 3 && options.dims[2] != n_files) {
-    throw Error(ErrorKind::input, inputs.place,
+    throw Error(ErrorKind::input, inputs.place(),
                 fmt::format("{} slices, but {} needs {}", n_files, dims_text(options.dims),
                             options.dims[2]),
                 "check --dims");
@@ -190,9 +189,9 @@ std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOp
   const std::uint64_t n_bytes =
       *volume_bytes(dims[0], dims[1], 1, *options.type) + options.skip_bytes;
   std::vector<PlaneFile> files;
-  files.reserve(inputs.paths.size());
-  for (const std::string& path : inputs.paths) {
-    files.push_back({map_sized(open_sized(path, n_bytes), n_bytes, dims, options, progress),
+  files.reserve(inputs.paths().size());
+  for (std::size_t n = 0; n < inputs.paths().size(); ++n) {
+    files.push_back({map_sized(open_sized(inputs, n, n_bytes), n_bytes, dims, options, progress),
                      options.skip_bytes});
   }
   return std::make_unique<MappedPlanes>(raw_volume(options, n_files), std::move(files), 1);
@@ -200,14 +199,17 @@ std::unique_ptr<SlabReader> open_series(const InputFiles& inputs, const SourceOp
 
 }  // namespace
 
-VolumeReader open_raw(const InputFiles& inputs, const SourceOptions& options, Progress& progress) {
-  check_typed(options, inputs.place);
-  if (options.grid) {
-    throw Error(ErrorKind::usage, "--grid", "raw data has no grids");
+Source open_raw(SourceInput& input, const SourceOptions& options, Progress& progress) {
+  check_typed(options, input.place());
+  Source source;
+  if (input.paths().size() > 1) {
+    source.reader = open_series(input, options, progress);
+  } else if (options.dims.size() == 3) {
+    source.reader = open_sized_volume(input, options, progress);
+  } else {
+    source.reader = open_counted_volume(input, options);
   }
-  if (inputs.paths.size() > 1) return open_series(inputs, options, progress);
-  return options.dims.size() == 3 ? open_sized_volume(inputs.paths.front(), options, progress)
-                                  : open_counted_volume(inputs.paths.front(), options, progress);
+  return source;
 }
 
 }  // namespace mc::source

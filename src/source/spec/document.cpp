@@ -9,6 +9,7 @@
 #include "base/checked.hpp"
 #include "source/json/object_reader.hpp"
 #include "source/spec/nodes.hpp"
+#include "source/spec/spec.hpp"
 
 // The frame of an mc-volume document: header, grid, convention; the nodes are nodes.cpp's.
 
@@ -90,7 +91,7 @@ void read_header(ObjectReader& keys) {
 
 Volume volume_of_grid(const Grid& grid) {
   Volume volume;
-  volume.format = "spec";
+  volume.format = kSpecFormat.name;
   volume.lattice.box.hi = {grid.samples[0] - 1, grid.samples[1] - 1, grid.samples[2] - 1};
   volume.lattice.to_world = Affine::scale_translate(grid.spacing, grid.origin);
   volume.type = SampleType::f32;

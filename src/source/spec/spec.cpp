@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "source/spec/spec.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -12,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "source/placement.hpp"
+#include "source/source_input.hpp"
 #include "source/spec/document.hpp"
 
 // The reader of procedural volumes: planes are computed into the slab's own memory.
@@ -90,13 +93,7 @@ class SpecReader final : public SlabReader, private MaterialReader {
   SpecDocument spec_;
 };
 
-}  // namespace
-
-std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text,
-                                           const SpecNesting& within) {
-  return std::make_unique<SpecReader>(load_spec(place, text, within));
-}
-
+/// Whether a JSON object begins there.
 bool looks_like_json(std::string_view head) {
   if (head.starts_with("\xEF\xBB\xBF")) {
     head.remove_prefix(3);
@@ -105,8 +102,32 @@ bool looks_like_json(std::string_view head) {
   return first != std::string_view::npos && head[first] == '{';
 }
 
-bool looks_like_spec(std::string_view head) {
-  return looks_like_json(head) && head.find("mc-volume") != std::string_view::npos;
+}  // namespace
+
+std::unique_ptr<SlabReader> open_spec_text(const std::string& place, std::string_view text,
+                                           const SpecNesting& within) {
+  return std::make_unique<SpecReader>(load_spec(place, text, within));
+}
+
+bool looks_like_spec(std::string_view head) { return recognise_spec(head) == Recognition::yes; }
+
+Recognition recognise_spec(std::string_view head) {
+  if (!looks_like_json(head)) return Recognition::no;
+  const bool named = head.find("mc-volume") != std::string_view::npos;
+  return named ? Recognition::yes : Recognition::unsure;
+}
+
+Source open_spec(SourceInput& input, const SourceOptions& options, Progress& /*progress*/) {
+  SpecNesting within;
+  if (input.state().within != nullptr) within = *input.state().within;
+  within.root = options.root;
+  within.further_formats = options.further_formats;
+  within.left = std::min(within.left, SpecNesting::most_samples(options.memory_bytes));
+  const MappedFile file = map_file(input);
+  std::unique_ptr<SlabReader> spec = open_spec_text(file.place(), file.text(), within);
+  Source source;
+  source.reader = places(options) ? placed_reader(std::move(spec), options) : std::move(spec);
+  return source;
 }
 
 }  // namespace mc::source

@@ -9,6 +9,7 @@
 #include "base/checked.hpp"
 #include "field/visit_type.hpp"
 #include "mc/base.hpp"
+#include "source/image/image_formats.hpp"
 #include "source/image/open_image.hpp"
 #include "source/input_files.hpp"
 #include "source/mapped_file.hpp"
@@ -122,11 +123,11 @@ std::shared_ptr<const Raster> SpecFiles::picture(const std::string& path,
   check_within(inside_.root, key.first);
   check_regular(key.first);
   const MappedFile file(key.first);
-  const std::optional<Format> format = format_of_content(file.text());
-  if (!format || !is_image(*format)) {
+  const std::optional<ImageKind> kind = image_kind(file.text());
+  if (!kind) {
     throw Error(ErrorKind::input, key.first, "is neither a PNG nor an OpenEXR picture");
   }
-  const std::unique_ptr<ImageFile> image = open_image(*format, file);
+  const std::unique_ptr<ImageFile> image = open_image(*kind, file);
   const ImagePart& part = image->parts().front();
   const std::optional<std::size_t> chosen = channel_named(part, channel);
   if (!chosen) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mc/graph.hpp"
+#include "mc/source.hpp"
 
 // The files that an mc-volume document names: pictures and volumes.
 
@@ -28,7 +29,8 @@ struct SpecNesting {
 
   std::vector<std::string> open{};  ///< the documents around it, as whole paths, outermost first
   std::uint64_t left = kMostSamples;
-  std::string root{};  ///< SourceOptions::root
+  std::string root{};               ///< SourceOptions::root
+  SourceFormats further_formats{};  ///< SourceOptions::further_formats
 };
 
 /// A volume that a document names, and what is solid in it.

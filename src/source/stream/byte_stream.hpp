@@ -9,17 +9,11 @@
 #include <string_view>
 #include <vector>
 
+#include "mc/source.hpp"
+
 // Bytes that come one after the other: of a pipe, of a file, or unpacked from either.
 
 namespace mc::source {
-
-class ByteStream {
- public:
-  virtual ~ByteStream() = default;
-  /// Fills `out`, as far as there are bytes. Returns how many there were: fewer than asked for only
-  /// at the end. Errors   input: unreadable, damaged.
-  virtual std::size_t read(std::span<std::byte> out) = 0;
-};
 
 /// A file descriptor that is closed at the end, standard ones excepted.
 class Descriptor {

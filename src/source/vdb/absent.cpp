@@ -5,20 +5,18 @@
 
 #if !MC_WITH_VDB
 
+#include "source/formats.hpp"
+#include "source/source_input.hpp"
+
 namespace mc::source {
 
-namespace {
-
-[[noreturn]] void absent(const MappedFile& file) {
-  throw Error(ErrorKind::input, file.place(), "this build of mc has no support for VDB files",
-              "install the package libopenvdb-dev and build again");
+Source open_vdb(SourceInput& input, const SourceOptions& /*options*/, Progress& /*progress*/) {
+  refuse_absent(kVdbFormat, map_file(input).place());
 }
 
-}  // namespace
-
-VdbSource open_vdb(MappedFile file, const SourceOptions& /*options*/) { absent(file); }
-
-std::vector<GridDescription> describe_vdb(MappedFile file) { absent(file); }
+std::vector<GridDescription> describe_vdb(SourceInput& input, Progress& /*progress*/) {
+  refuse_absent(kVdbFormat, map_file(input).place());
+}
 
 }  // namespace mc::source
 

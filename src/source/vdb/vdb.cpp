@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "source/vdb/vdb.hpp"
 
+#include "source/magic.hpp"
+#include "source/vdb/layout.hpp"
+
 // Trees are read without OpenVDB: within bounds, so that a file cut off anywhere is an error at
 // once; without its library, which takes longer to load than most files; and on all cores.
+
+namespace mc::source {
+
+Recognition recognise_vdb(std::string_view head) { return recognised(looks_like_vdb(head)); }
+
+}  // namespace mc::source
 
 #if MC_WITH_VDB
 
@@ -17,9 +26,9 @@
 
 #include "field/volume_names.hpp"
 #include "source/placement.hpp"
+#include "source/source_input.hpp"
 #include "source/text.hpp"
 #include "source/vdb/choice.hpp"
-#include "source/vdb/layout.hpp"
 #include "source/vdb/placing.hpp"
 #include "source/vdb/tree_outline.hpp"
 #include "source/vdb/tree_reader.hpp"
@@ -72,7 +81,7 @@ class VdbFile {
   [[nodiscard]] std::pair<Volume, std::string> outline(const VdbGrid& grid) const {
     Volume volume;
     volume.name = grid.shown_name();
-    volume.format = "vdb";
+    volume.format = kVdbFormat.name;
     volume.type = scalar_type(grid).value_or(SampleType::f32);
     volume.cls = volume_class(grid);
     volume.units = grid.meta_text("mc_units") == "mm" ? Units::mm : Units::m;
@@ -180,8 +189,8 @@ bool take_statistics(const VdbGrid& grid, Volume& volume) {
 
 }  // namespace
 
-VdbSource open_vdb(MappedFile mapped, const SourceOptions& options) {
-  const VdbFile file(std::move(mapped));
+Source open_vdb(SourceInput& input, const SourceOptions& options, Progress& /*progress*/) {
+  const VdbFile file(map_file(input));
   const std::size_t chosen = choose_grid(file.grids(), options.grid, file.place());
   auto [volume, refused] = file.outline(file.grids()[chosen]);
   const std::string name = naming(file.grids()[chosen]);
@@ -191,12 +200,14 @@ VdbSource open_vdb(MappedFile mapped, const SourceOptions& options) {
   }
   check_map(volume.lattice.to_world, fmt::format("{}: {}", file.place(), name));
   volume.lattice.to_world = placed(volume.lattice.to_world, options);
-  VdbSource out;
-  out.reader = file.load(chosen, volume, LeafValues::read, options.memory_bytes);
-  if (is_empty(*out.reader)) {
+  std::unique_ptr<LeafReader> reader =
+      file.load(chosen, volume, LeafValues::read, options.memory_bytes);
+  if (is_empty(*reader)) {
     throw Error(ErrorKind::input, file.place(),
                 fmt::format("{}: empty, it holds nothing but background", name));
   }
+  Source out;
+  out.reader = std::move(reader);
   for (std::size_t n = 0; n < file.grids().size(); ++n) {
     if (n != chosen && scalar_type(file.grids()[n])) {
       out.other_grids.push_back(file.grids()[n].shown_name());
@@ -205,8 +216,8 @@ VdbSource open_vdb(MappedFile mapped, const SourceOptions& options) {
   return out;
 }
 
-std::vector<GridDescription> describe_vdb(MappedFile mapped) {
-  const VdbFile file(std::move(mapped));
+std::vector<GridDescription> describe_vdb(SourceInput& input, Progress& /*progress*/) {
+  const VdbFile file(map_file(input));
   std::vector<GridDescription> out;
   for (std::size_t n = 0; n < file.grids().size(); ++n) {
     const VdbGrid& grid = file.grids()[n];

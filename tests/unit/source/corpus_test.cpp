@@ -69,7 +69,8 @@ TEST(Corpus, Stream) {
 #if MC_WITH_EXR
 TEST(Corpus, Exr) {
   EXPECT_EQ(
-      readable("exr", [](auto bytes) { return test::open_and_decode(source::Format::exr, bytes); }),
+      readable("exr",
+               [](auto bytes) { return test::open_and_decode(source::ImageKind::exr, bytes); }),
       (std::vector<std::string>{"parts_uint.exr", "scan_half_zip.exr", "tiles_float.exr",
                                 "zip_called_b44.exr"}));  // by chance whole B44 blocks
 }
@@ -78,7 +79,8 @@ TEST(Corpus, Exr) {
 #if MC_WITH_PNG
 TEST(Corpus, Png) {
   EXPECT_EQ(
-      readable("png", [](auto bytes) { return test::open_and_decode(source::Format::png, bytes); }),
+      readable("png",
+               [](auto bytes) { return test::open_and_decode(source::ImageKind::png, bytes); }),
       (std::vector<std::string>{"grey16.png", "interlaced.png", "palette2.png", "rgba8.png"}));
 }
 #endif

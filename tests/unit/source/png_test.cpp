@@ -32,7 +32,7 @@ struct Opened {
   std::unique_ptr<ImageFile> image;
 
   explicit Opened(const std::string& bytes)
-      : file(folder.file("a.png", bytes)), image(open_image(source::Format::png, file)) {}
+      : file(folder.file("a.png", bytes)), image(open_image(source::ImageKind::png, file)) {}
 };
 
 std::string error_of_png(const std::string& bytes) {
@@ -40,7 +40,7 @@ std::string error_of_png(const std::string& bytes) {
   const std::string path = folder.file("a.png", bytes);
   const std::string error = error_of([&] {
     const source::MappedFile file(path);
-    const auto image = open_image(source::Format::png, file);
+    const auto image = open_image(source::ImageKind::png, file);
     pixels(*image, 0);
   });
   const std::size_t at = error.find(path);

@@ -25,7 +25,7 @@ using test::error_of;
 using test::Folder;
 
 /// A string as a stream.
-class TextStream final : public source::ByteStream {
+class TextStream final : public ByteStream {
  public:
   explicit TextStream(std::string text) : text_(std::move(text)) {}
   std::size_t read(std::span<std::byte> out) override {
