@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "cli/args.hpp"
 
+#include <fmt/format.h>
+
+#include "base/text.hpp"
+#include "cli/format_lists.hpp"
+
 // The option tables. CLI.md's names and meanings are fixed; the manual pages repeat them, and a
 // test compares the two.
 
@@ -11,15 +16,53 @@ namespace {
 constexpr std::string_view kProgress = "auto always never json";
 constexpr std::string_view kNormals = "gradient face none";
 
+/// Values, and help that lists formats. Options point to it.
+struct FormatHelp {
+  const std::string from_values = joined(source_names());
+  const std::string from =
+      fmt::format("what the input is: {} (default: its content)", base::enumerate(source_names()));
+  const std::string mesh_values = joined(mesh_names());
+  const std::string mesh_to =
+      fmt::format("{} (default: by the output's extension)", base::enumerate(mesh_names()));
+  const std::string mesh_output = fmt::format("{}; - is stdout, with --to", dotted(mesh_names()));
+  const std::string volume_values = joined(volume_names());
+  const std::string volume_to =
+      fmt::format("{} (default: by the output's extension)", base::enumerate(volume_names()));
+  const std::string volume_output =
+      fmt::format("{}, slices.####{}; with --slice {}", dotted(volumes(false)),
+                  dotted(volumes(true)), dotted(picture_names()));
+  const std::string ascii = fmt::format(
+      "{}: text form", displays([](const SinkFormat& f) { return f.text == TextForm::optional; }));
+  const std::string precision = fmt::format(
+      "{}: float or double coordinates", displays([](const SinkFormat& f) { return f.precision; }));
+
+ private:
+  /// Formats of volumes that are pictures too, a slice each, or are not.
+  static Names volumes(bool pictures) {
+    return sink_names([pictures](const SinkFormat& f) {
+      return f.open_volume != nullptr && (f.open_picture != nullptr) == pictures;
+    });
+  }
+  template <class Matches>
+  static std::string displays(Matches&& matches) {
+    Names names = sink_names(matches);
+    for (std::string_view& name : names) name = find_sink_format(name)->display;
+    return fmt::format("{}", fmt::join(names, ", "));
+  }
+};
+
+const FormatHelp& format_help() {
+  static const FormatHelp help;
+  return help;
+}
+
 void append(std::vector<Option>& to, std::vector<Option> more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
 std::vector<Option> source_options(SourceArgs& a) {
   return {
-      {"--from", "TYPE",
-       "what the input is: vdb, raw, nrrd, spec, exr or png (default: its content)", false, &a.from,
-       "vdb raw nrrd spec exr png"},
+      {"--from", "TYPE", format_help().from, false, &a.from, format_help().from_values},
       {"--grid", "NAME", "VDB grid: NAME, NAME[n] or #n (default: the first that is scalar)", true,
        &a.grid},
       {"--channel", "NAME", "pictures: channel to read (default: Y, else R, else the first)", false,
@@ -98,11 +141,9 @@ std::vector<Option> place_options(ExtractArgs& a) {
 
 std::vector<Option> options_of(ExtractArgs& a) {
   std::vector<Option> all{
-      {"-o,--output", "FILE", ".ply, .obj, .stl, .glb or .gltf; - is stdout, with --to", true,
-       &a.output},
+      {"-o,--output", "FILE", format_help().mesh_output, true, &a.output},
       {"--out-dir", "DIR", "batch: each input becomes a mesh of its own in DIR", true, &a.out_dir},
-      {"--to", "TYPE", "ply, obj, stl, glb or gltf (default: by the output's extension)", true,
-       &a.to, "ply obj stl glb gltf"},
+      {"--to", "TYPE", format_help().mesh_to, true, &a.to, format_help().mesh_values},
       {"--files-from", "FILE", "batch: inputs by name, one a line; - is stdin", false,
        &a.files_from},
       {"-0,--null", "", "batch: names of --files-from end in NUL, not in a line's end", false,
@@ -115,9 +156,8 @@ std::vector<Option> options_of(ExtractArgs& a) {
   append(all, place_options(a));
   append(
       all,
-      {{"--ascii", "", "PLY, STL: text form", false, &a.ascii},
-       {"--precision", "HOW", "PLY: float or double coordinates", false, &a.precision,
-        "float double"},
+      {{"--ascii", "", format_help().ascii, false, &a.ascii},
+       {"--precision", "HOW", format_help().precision, false, &a.precision, "float double"},
        {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
        {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
        {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
@@ -158,8 +198,8 @@ std::vector<Option> options_of(EditArgs& a) {
   append(all, source_options(m.source));
   append(all, place_options(m));
   append(all,
-         {{"--ascii", "", "PLY, STL: text form", false, &m.ascii},
-          {"--precision", "HOW", "PLY: float or double coordinates", false, &m.precision},
+         {{"--ascii", "", format_help().ascii, false, &m.ascii},
+          {"--precision", "HOW", format_help().precision, false, &m.precision},
           {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &m.report},
           {"--dry-run", "", "say what each edit would touch, and stop", true, &m.dry_run},
           {"--force", "", "replace existing outputs; write binary to a terminal", true, &m.force},
@@ -173,10 +213,8 @@ std::vector<Option> options_of(EditArgs& a) {
 
 std::vector<Option> options_of(SampleArgs& a) {
   std::vector<Option> all{
-      {"-o,--output", "FILE", ".vdb, .nrrd or .raw, slices.####.exr; with --slice .png or .exr",
-       true, &a.output},
-      {"--to", "TYPE", "vdb, nrrd, raw, exr or png (default: by the output's extension)", true,
-       &a.to, "vdb nrrd raw exr png"},
+      {"-o,--output", "FILE", format_help().volume_output, true, &a.output},
+      {"--to", "TYPE", format_help().volume_to, true, &a.to, format_help().volume_values},
       {"--region", "I0,J0,K0:I1,J1,K1", "only these samples, both ends inclusive", true, &a.region},
       {"--slice", "AXIS=V", "a picture of one plane: x, y or z=POSITION, or i, j or k=INDEX", true,
        &a.slice},

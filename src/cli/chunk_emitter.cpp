@@ -13,6 +13,7 @@
 
 #include "base/hash.hpp"
 #include "cli/facts.hpp"
+#include "cli/format_lists.hpp"
 #include "cli/invocation.hpp"
 #include "cli/placement.hpp"
 #include "cli/surface_choice.hpp"
@@ -28,15 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string name_of_chunk(const Index3& id) {
-  return fmt::format("chunk_{}_{}_{}.glb", id[0], id[1], id[2]);
+  return fmt::format("chunk_{}_{}_{}.{}", id[0], id[1], id[2], chunk_format().name);
 }
 
 /// "chunk_0_-1_12.glb".
 bool is_chunk_name(std::string_view name) {
-  constexpr std::string_view kFirst = "chunk", kLast = ".glb";
-  if (!name.starts_with(kFirst) || !name.ends_with(kLast)) return false;
+  constexpr std::string_view kFirst = "chunk";
+  const std::string last = fmt::format(".{}", chunk_format().name);
+  if (!name.starts_with(kFirst) || !name.ends_with(last)) return false;
   name.remove_prefix(kFirst.size());
-  name.remove_suffix(std::min(kLast.size(), name.size()));
+  name.remove_suffix(std::min(last.size(), name.size()));
   int n_numbers = 0;
   while (name.starts_with('_')) {
     name.remove_prefix(name.starts_with("_-") ? 2 : 1);
@@ -63,12 +65,12 @@ std::uint64_t hash_of(const MeshChunk& mesh) {
 SinkOptions glb_options(const EditPlan& plan, const Source& source, Border border) {
   const Volume& volume = volume_of(source.reader);
   SinkOptions options;
-  options.to = "glb";
+  options.to = chunk_format().name;
   options.force = true;  // a chunk replaces the one before it
   options.sync = plan.surface.sink.sync;
   options.provenance =
       facts_of(volume, std::array{Iso{plan.surface.isos.front().value, {}}}, *plan.surface.inside,
-               border, place(volume, plan.surface.place, "glb"), "glb");
+               border, place(volume, plan.surface.place, options.to), options.to);
   return options;
 }
 
@@ -78,7 +80,7 @@ ChunkOptions chunk_options(const EditPlan& plan, const Source& source) {
   const ExtractPlan& surface = plan.surface;
   const Volume& volume = volume_of(source.reader);
   const IndexBox box = surface.extract.region.value_or(volume.lattice.box);
-  const Placement placement = place(volume, surface.place, "glb");
+  const Placement placement = place(volume, surface.place, chunk_format().name);
   ChunkOptions options{.extract = surface.extract, .to_world = placement.to_world};
   options.n_cells = plan.chunk_cells;
   options.extract.iso = surface.isos.front().value;
@@ -86,7 +88,7 @@ ChunkOptions chunk_options(const EditPlan& plan, const Source& source) {
   options.extract.border = choose_border(surface.border, volume);
   options.extract.measure = false;
   const bool moves = rounding_loss(box, placement.to_world, Precision::f32).matters;
-  const MeshNeeds needs = mesh_needs("glb", surface.sink, moves);
+  const MeshNeeds needs = chunk_format().needs(surface.sink, moves);
   check_told_apart(source.place, box, placement.to_world, needs,
                    surface.source.spacing || surface.source.origin);
   if (needs.relative_origin) options.extract.origin = double_origin(box, placement.to_world);

@@ -117,7 +117,7 @@ void Extraction::open(const std::vector<std::string>& inputs) {
 
 void Extraction::place_mesh() {
   check_region(reader(), plan_.extract.region);
-  if (materials_of(reader()) != nullptr && !holds_materials(plan_.format)) {
+  if (materials_of(reader()) != nullptr && !find_sink_format(plan_.format)->holds_materials) {
     invocation_.console.note(
         fmt::format("{} holds no materials, so they are left out; write ply, "
                     "glb or gltf",
@@ -126,7 +126,7 @@ void Extraction::place_mesh() {
   placement_ = place(volume(), plan_.place, plan_.format);
   report_.placement = placement_;
   const RoundingLoss loss = rounding_loss(box(), placement_.to_world, Precision::f32);
-  needs_ = mesh_needs(plan_.format, plan_.sink, loss.matters);
+  needs_ = find_sink_format(plan_.format)->needs(plan_.sink, loss.matters);
   check_told_apart(source_->place, box(), placement_.to_world, needs_,
                    plan_.source.spacing || plan_.source.origin);
   if (!loss.matters || needs_.relative_origin) return;
@@ -184,7 +184,7 @@ void Extraction::probe_output() const {
 
 /// The volume's, where the output can hold them.
 const MaterialReader* Extraction::materials() const {
-  return holds_materials(plan_.format) ? materials_of(reader()) : nullptr;
+  return find_sink_format(plan_.format)->holds_materials ? materials_of(reader()) : nullptr;
 }
 
 RunOptions Extraction::run_options(const Iso& iso) const {

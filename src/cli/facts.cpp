@@ -16,7 +16,7 @@ std::vector<std::pair<std::string, std::string>> facts_of(const Volume& volume,
   facts.emplace_back("iso", fmt::format("{}", fmt::join(values, ",")));
   facts.emplace_back("inside", name_of(inside));
   facts.emplace_back("border", name_of(border));
-  const bool y_up = format == "glb" || format == "gltf";
+  const bool y_up = find_sink_format(format)->y_up_metres;
   facts.emplace_back("frame", name_of(y_up ? placement.source_frame : placement.frame));
   if (y_up || placement.source_frame == Frame::none) {
     facts.emplace_back("up", y_up ? "y" : name_of(placement.source_up));

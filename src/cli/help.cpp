@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
 #include "cli/args.hpp"
 #include "cli/command_line.hpp"
 #include "cli/invocation.hpp"
@@ -195,7 +196,7 @@ std::string program_text(bool verbose) {
   const auto names = command_names();
   const std::string near = suggestion(topic, names);
   throw Error(ErrorKind::usage, topic,
-              fmt::format("no such command: expected {}", enumerate(names)), near);
+              fmt::format("no such command: expected {}", base::enumerate(names)), near);
 }
 
 /// One option name a line, for the test that compares the manual pages.
@@ -210,6 +211,11 @@ std::string bare_options(std::string_view command) {
 }
 
 }  // namespace
+
+std::string_view topic_text(std::string_view topic) {
+  const auto known = std::ranges::find(kTopics, topic, &Topic::name);
+  return known == kTopics.end() ? std::string_view{} : known->text;
+}
 
 std::vector<std::string_view> command_names() {
   std::vector<std::string_view> names;
@@ -250,9 +256,9 @@ int run_help(Invocation& /*invocation*/, std::vector<std::string> words) {
     throw Error(ErrorKind::usage, topics[1], "unexpected word after the topic");
   std::string topic = topics.empty() ? "" : topics.front();
   if (topic == "help") topic.clear();
-  const auto known = std::ranges::find(kTopics, topic, &Topic::name);
-  if (known != kTopics.end() && !bare) {
-    print_out(known->text);
+  const std::string_view known = topic_text(topic);
+  if (!known.empty() && !bare) {
+    print_out(known);
     return 0;
   }
   if (bare && !topic.empty() && page_of(topic) == nullptr) refuse_topic(topic);

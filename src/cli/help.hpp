@@ -16,6 +16,9 @@ namespace mc::cli {
 /// Errors   usage: no such command.
 std::string help_text(std::string_view command, bool verbose);
 
+/// What `mc help TOPIC` says of a topic that is no command; empty: it is none.
+std::string_view topic_text(std::string_view topic);
+
 /// The commands, in the order help shows them.
 std::vector<std::string_view> command_names();
 /// What a command does, in a few words.

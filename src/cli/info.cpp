@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/parallel.hpp"
+#include "base/text.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
@@ -30,7 +31,11 @@ namespace {
 /// A picture by its name.
 bool is_picture(const std::string& input) {
   const std::string extension = std::filesystem::path(input).extension().string();
-  return extension == ".exr" || extension == ".png";
+  return !extension.empty() &&
+         std::ranges::any_of(source_formats(), [&](const SourceFormat* format) {
+           return format->several_files && !format->headerless &&
+                  base::has_word(format->extensions, extension.substr(1));
+         });
 }
 
 /// One input: a file, or the slices of one volume.
@@ -50,8 +55,9 @@ struct Wish {
 /// What sinks of binary formats make of a chunk.
 Formatted any_binary(bool f32_moves) {
   Formatted most;
-  for (const char* format : {"ply", "stl", "glb"}) {
-    const Formatted one = mesh_needs(format, {}, f32_moves).formatted;
+  for (const SinkFormat* format : sink_formats()) {
+    if (format->open_mesh == nullptr || format->text == TextForm::always) continue;
+    const Formatted one = format->needs({}, f32_moves).formatted;
     most.vertex_bytes = std::max(most.vertex_bytes, one.vertex_bytes);
     most.triangle_bytes = std::max(most.triangle_bytes, one.triangle_bytes);
   }
@@ -79,8 +85,7 @@ void measure_grid(VolumeReader reader, bool piped, const Wish& wish, GridInfo& g
                   Invocation& invocation) {
   const bool streams = spool_stream(reader, invocation.console);
   const Volume& volume = volume_of(reader);
-  const bool streamed_by_extract =
-      streams || (piped && (volume.format == "raw" || volume.format == "nrrd"));
+  const bool streamed_by_extract = streams || (piped && find_source_format(volume.format)->streams);
   grid.statistics = measure_field(reader, kInfoPercentiles, invocation.console,
                                   invocation.stop.get_token(), wish.memory_bytes);
   invocation.console.end_stage();

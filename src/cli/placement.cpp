@@ -82,7 +82,7 @@ Placement place(const Volume& volume, const PlaceChoice& choice, std::string_vie
         std::string("is for sources without a frame, but this one is in ") + name_of(volume.frame));
   }
   at.source_up = choice.up.value_or(Up::y);
-  if (format == "glb" || format == "gltf") {
+  if (find_sink_format(format)->y_up_metres) {
     place_y_up(at, choice);
   } else {
     place_as_source(at, choice);

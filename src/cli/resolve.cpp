@@ -9,8 +9,10 @@
 #include <unordered_map>
 
 #include "base/machine_memory.hpp"
+#include "base/text.hpp"
 #include "cli/command_line.hpp"
 #include "cli/file_list.hpp"
+#include "cli/format_lists.hpp"
 #include "cli/values.hpp"
 
 // Text to plans for the commands that write: defaults filled in, contradictions refused.
@@ -84,14 +86,17 @@ IsoChoice parse_iso(std::string_view text) {
   return {IsoChoice::Kind::number, parse_number("--iso", text)};
 }
 
+const SinkFormat& format_of(const ExtractPlan& plan) { return *find_sink_format(plan.format); }
+
 void resolve_surface(const ExtractArgs& args, ExtractPlan& plan) {
   if (args.iso) {
     for (const std::string_view part : split(*args.iso, ',')) plan.isos.push_back(parse_iso(part));
   }
-  if (plan.isos.size() > 1 && !holds_several_objects(plan.format)) {
+  if (plan.isos.size() > 1 && !format_of(plan).several_objects) {
     refuse("--iso",
            fmt::format("{} values, but {} holds one object a file", plan.isos.size(), plan.format),
-           "choose glb, gltf or obj, or extract them one by one");
+           fmt::format("choose {}, or extract them one by one",
+                       base::enumerate(several_object_names())));
   }
   if (args.inside) {
     static constexpr std::array<std::pair<std::string_view, std::optional<Inside>>, 3> kSides{
@@ -132,13 +137,16 @@ void resolve_edges(const ExtractArgs& args, ExtractOptions& extract) {
 }
 
 void resolve_normals(const ExtractArgs& args, ExtractPlan& plan) {
-  const bool holds_normals = plan.format != "stl";
+  const bool holds_normals = format_of(plan).has_normals;
   plan.extract.normals = holds_normals ? Normals::gradient : Normals::none;
   if (!args.normals) return;
   plan.extract.normals = parse_normals(*args.normals);
   if (!holds_normals && plan.extract.normals != Normals::none) {
-    refuse("--normals", "stl holds no vertex normals, only those of its facets",
-           "choose ply, obj, glb or gltf");
+    const Names others =
+        sink_names([](const SinkFormat& f) { return f.open_mesh != nullptr && f.has_normals; });
+    refuse("--normals",
+           fmt::format("{} holds no vertex normals, only those of its facets", plan.format),
+           fmt::format("choose {}", base::enumerate(others)));
   }
 }
 
@@ -164,11 +172,14 @@ void resolve_place(const ExtractArgs& args, PlaceChoice& place) {
 }
 
 void resolve_form(const ExtractArgs& args, ExtractPlan& plan) {
-  if (args.ascii && plan.format != "ply" && plan.format != "stl") {
-    refuse("--ascii", fmt::format("is for ply and stl, not {}", plan.format));
+  if (args.ascii && format_of(plan).text != TextForm::optional) {
+    const Names with = sink_names([](const SinkFormat& f) { return f.text == TextForm::optional; });
+    refuse("--ascii", fmt::format("is for {}, not {}", base::enumerate(with, "and"), plan.format));
   }
-  if (args.precision && plan.format != "ply") {
-    refuse("--precision", fmt::format("is for ply, not {}", plan.format));
+  if (args.precision && !format_of(plan).precision) {
+    const Names with = sink_names([](const SinkFormat& f) { return f.precision; });
+    refuse("--precision",
+           fmt::format("is for {}, not {}", base::enumerate(with, "and"), plan.format));
   }
   plan.sink.ascii = args.ascii;
   if (args.precision) {
@@ -221,15 +232,18 @@ void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inp
   plan.sink.to = args.to.value_or("");
   plan.batch = args.out_dir.has_value();
   if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
-  if (plan.batch && !args.to) plan.sink.to = "glb";
+  const std::string usual(usual_mesh_format().name);
+  if (plan.batch && !args.to) plan.sink.to = usual;
   if (!plan.batch && !args.output) {
-    refuse_missing_output("extract", args.common, inputs, "." + args.to.value_or("glb"));
+    refuse_missing_output("extract", args.common, inputs, "." + args.to.value_or(usual));
   }
-  plan.format = output_format(plan.batch ? "" : *args.output, plan.sink);
-  if (!is_mesh_format(plan.format)) {
-    refuse(args.to ? "--to" : *args.output,
-           fmt::format("{} holds a volume: expected ply, obj, stl, glb or gltf", plan.format),
-           "use mc sample to write volumes");
+  const SinkFormat& format = output_format(plan.batch ? "" : *args.output, plan.sink);
+  plan.format = format.name;
+  if (format.open_mesh == nullptr) {
+    refuse(
+        args.to ? "--to" : *args.output,
+        fmt::format("{} holds a volume: expected {}", format.name, base::enumerate(mesh_names())),
+        "use mc sample to write volumes");
   }
   plan.sink.to = plan.format;
   if (plan.batch) {
@@ -238,8 +252,10 @@ void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inp
     plan.jobs = {{inputs, *args.output}};
   }
   for (const Job& job : plan.jobs) {
-    if (plan.format == "gltf" && is_stream(job.output)) {
-      refuse(job.output, "glTF is two files and cannot be written to a stream", "use --to glb");
+    if (!format.one_file && is_stream(job.output)) {
+      refuse(job.output,
+             fmt::format("{} is two files and cannot be written to a stream", format.display),
+             fmt::format("use --to {}", usual));
     }
     if (args.report && std::ranges::find(job.inputs, *args.report) != job.inputs.end() &&
         *args.report != "-") {
@@ -272,19 +288,26 @@ SliceChoice parse_slice(const std::string& text) {
 }
 
 /// --slice, and what goes with it only.
-std::optional<SliceChoice> resolve_slice(const SampleArgs& args, const std::string& format) {
-  const bool png = format == "png";
+std::optional<SliceChoice> resolve_slice(const SampleArgs& args, const SinkFormat& format) {
   for (const auto& [name, given] :
        {std::pair{"--range", args.range.has_value()}, {"--bits", args.bits.has_value()}}) {
-    if (given && !png) refuse(name, "is for PNG pictures");
+    if (given && !format.greys) {
+      const Names grey = sink_names([](const SinkFormat& f) { return f.greys; });
+      refuse(name, fmt::format("is for {} pictures", find_sink_format(grey.front())->display));
+    }
   }
   if (!args.slice) {
-    if (png) refuse("--slice", "missing: a PNG picture is one slice", "add --slice z=POSITION");
+    if (format.open_volume == nullptr) {
+      refuse("--slice", fmt::format("missing: a {} picture is one slice", format.display),
+             "add --slice z=POSITION");
+    }
     return std::nullopt;
   }
-  if (!png && format != "exr") {
-    refuse("--slice", fmt::format("{} holds volumes: expected png or exr", format),
-           "for a part of a volume use --region");
+  if (format.open_picture == nullptr) {
+    refuse(
+        "--slice",
+        fmt::format("{} holds volumes: expected {}", format.name, base::enumerate(picture_names())),
+        "for a part of a volume use --region");
   }
   SliceChoice slice = parse_slice(*args.slice);
   if (args.bits) {
@@ -344,21 +367,23 @@ SamplePlan resolve(const SampleArgs& args) {
   check_output_name(args.output);
   if (!args.output) {
     refuse_missing_output("sample", args.common, args.source.inputs,
-                          "." + args.to.value_or("nrrd"));
+                          "." + args.to.value_or(std::string(usual_volume_format().name)));
   }
   plan.sink.force = args.force;
   plan.sink.sync = args.sync;
   plan.sink.to = args.to.value_or("");
-  plan.format = output_format(*args.output, plan.sink);
-  if (is_mesh_format(plan.format)) {
-    refuse(args.to ? "--to" : *args.output,
-           fmt::format("{} holds a mesh: expected vdb, nrrd, raw, exr or png", plan.format),
-           "use mc extract to write meshes");
+  const SinkFormat& format = output_format(*args.output, plan.sink);
+  plan.format = format.name;
+  if (format.open_mesh != nullptr) {
+    refuse(
+        args.to ? "--to" : *args.output,
+        fmt::format("{} holds a mesh: expected {}", format.name, base::enumerate(volume_names())),
+        "use mc extract to write meshes");
   }
   plan.sink.to = plan.format;
   plan.job = {args.source.inputs, *args.output};
   if (args.region) plan.region = parse_region("--region", *args.region);
-  plan.slice = resolve_slice(args, plan.format);
+  plan.slice = resolve_slice(args, format);
   plan.memory_bytes = resolve_memory(args.memory);
   return plan;
 }

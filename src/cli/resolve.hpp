@@ -55,7 +55,7 @@ struct ExtractPlan {
   bool skip_existing = false;  ///< batch: leave out jobs whose output is there
   SourceOptions source;
   SinkOptions sink;
-  std::string format;           ///< of the output: "ply", "obj", "stl", "glb", "gltf"
+  std::string format;           ///< of the output: SinkFormat::name
   std::vector<IsoChoice> isos;  ///< empty: decided by the volume
   std::optional<Inside> inside;
   bool invert = false;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/command_line.hpp"
+#include "cli/format_lists.hpp"
 #include "cli/values.hpp"
 
 // Every output is resolved as `mc extract` or `mc sample` would resolve it.
@@ -23,29 +24,30 @@ namespace {
 }
 
 /// Of several outputs only stdout needs --to, the others say by their names what they are.
-std::string format_of(const EditArgs& args, const std::string& path) {
+const SinkFormat& format_of(const EditArgs& args, const std::string& path) {
   SinkOptions options;
   if (args.mesh.to && (path == "-" || args.outputs.size() < 2)) options.to = *args.mesh.to;
   return output_format(path, options);
 }
 
-EditOutput resolve_output(const EditArgs& args, const std::string& path,
-                          const std::string& format) {
-  if (is_mesh_format(format)) {
+EditOutput resolve_output(const EditArgs& args, const std::string& path, const SinkFormat& format) {
+  if (format.open_mesh != nullptr) {
     ExtractArgs mesh = args.mesh;
     mesh.output = path;
-    mesh.to = format;
+    mesh.to = format.name;
     return {path, resolve(mesh)};
   }
-  if (format == "png") {
-    refuse(path, "png holds one slice of a volume",
-           "write .vdb, .nrrd or .raw, then use mc sample");
+  if (format.open_volume == nullptr) {
+    const Names whole = sink_names(
+        [](const SinkFormat& f) { return f.open_volume != nullptr && f.open_picture == nullptr; });
+    refuse(path, fmt::format("{} holds one slice of a volume", format.name),
+           fmt::format("write {}, then use mc sample", dotted(whole)));
   }
   SampleArgs volume;
   volume.source = args.mesh.source;
   volume.common = args.mesh.common;
   volume.output = path;
-  volume.to = format;
+  volume.to = format.name;
   volume.region = args.mesh.region;
   volume.memory = args.mesh.memory;
   volume.force = args.mesh.force;
@@ -91,7 +93,9 @@ void resolve_emit(const EditArgs& args, EditPlan& plan) {
 std::vector<std::string> outputs_of(const EditArgs& args, const EditPlan& plan) {
   std::vector<std::string> outputs = args.outputs;
   if (!plan.sends_chunks() || std::ranges::count(outputs, "-") != 1) return outputs;
-  if (args.mesh.to.value_or("glb") != "glb") refuse("--to", "chunks on stdout are glb");
+  if (args.mesh.to && *args.mesh.to != chunk_format().name) {
+    refuse("--to", fmt::format("chunks on stdout are {}", chunk_format().name));
+  }
   std::erase(outputs, "-");
   return outputs;
 }
@@ -146,8 +150,8 @@ EditPlan resolve(const EditArgs& typed) {
     plan.outputs.push_back(resolve_output(args, path, format_of(args, path)));
   }
   ExtractArgs surface = args.mesh;
-  surface.output = "chunk.glb";
-  surface.to = "glb";
+  surface.output = fmt::format("chunk.{}", chunk_format().name);
+  surface.to = chunk_format().name;
   surface.ascii = false;
   surface.precision.reset();
   plan.surface = resolve(surface);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 
 #include "base/checked.hpp"
+#include "cli/format_lists.hpp"
 #include "cli/resolve.hpp"
 #include "cli/values.hpp"
 
@@ -55,19 +57,32 @@ Vec3 parse_spacing(const std::string& text) {
   return spacing;
 }
 
-void check_raw_options(const SourceArgs& args) {
-  const bool raw = args.dims || args.type || (args.from && *args.from == "raw");
-  const bool other = args.from && *args.from != "raw";
-  for (const auto& [name, given] : {std::pair{"--dims", args.dims.has_value()},
-                                    {"--type", args.type.has_value()},
-                                    {"--endian", args.endian.has_value()},
-                                    {"--skip", args.skip.has_value()}}) {
-    if (given && other) {
-      throw Error(ErrorKind::usage, name,
-                  fmt::format("is for raw data, but --from says {}", *args.from));
+const SourceFormat* format_named(const Text& from) {
+  if (!from) return nullptr;
+  const Names names = source_names();
+  if (std::ranges::find(names, *from) == names.end()) refuse_choice("--from", *from, names);
+  return find_source_format(*from);
+}
+
+/// Options that say what raw data is. `named` is the format of --from, or null.
+void check_raw_options(const SourceArgs& args, const SourceFormat* named) {
+  const bool raw = args.dims || args.type || (named != nullptr && named->headerless);
+  struct Given {
+    std::string_view name;
+    const Text& text;
+    bool SourceTakes::*taken;
+  };
+  for (const Given& given : {Given{"--dims", args.dims, &SourceTakes::dims},
+                             Given{"--type", args.type, &SourceTakes::type},
+                             Given{"--endian", args.endian, &SourceTakes::endian},
+                             Given{"--skip", args.skip, &SourceTakes::skip}}) {
+    if (given.text && named != nullptr && !(named->takes.*given.taken)) {
+      throw Error(ErrorKind::usage, given.name,
+                  fmt::format("is for raw data, but --from says {}", named->name));
     }
-    if (given && !raw) {
-      throw Error(ErrorKind::usage, name, "is for raw data: expected --dims and --type with it");
+    if (given.text && !raw) {
+      throw Error(ErrorKind::usage, given.name,
+                  "is for raw data: expected --dims and --type with it");
     }
   }
   if (raw && !args.dims) {
@@ -102,17 +117,9 @@ SampleType parse_type(const std::string& text) {
 
 SourceOptions resolve_source(const SourceArgs& args) {
   SourceOptions options;
-  if (args.from) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> kFrom{
-        {{"vdb", "vdb"},
-         {"raw", "raw"},
-         {"nrrd", "nrrd"},
-         {"spec", "spec"},
-         {"exr", "exr"},
-         {"png", "png"}}};
-    options.from = parse_choice("--from", *args.from, kFrom);
-  }
-  check_raw_options(args);
+  const SourceFormat* named = format_named(args.from);
+  if (named != nullptr) options.from = named->name;
+  check_raw_options(args, named);
   options.grid = args.grid;
   options.channel = args.channel;
   if (args.dims) options.dims = parse_dims(*args.dims);

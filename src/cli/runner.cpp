@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text.hpp"
 #include "cli/args.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
@@ -56,7 +57,7 @@ int run_top(const std::vector<std::string>& words) {
     print_out(version_text(args.common.verbose > 0));
   } else {
     throw Error(ErrorKind::usage, {},
-                fmt::format("no command: expected {}", enumerate(command_names())),
+                fmt::format("no command: expected {}", base::enumerate(command_names())),
                 "see mc --help");
   }
   return 0;
@@ -74,7 +75,8 @@ int dispatch(Invocation& invocation, const std::vector<std::string>& words) {
     if (name == *at) return command(invocation, std::move(rest));
   }
   const auto names = command_names();
-  throw Error(ErrorKind::usage, *at, fmt::format("no such command: expected {}", enumerate(names)),
+  throw Error(ErrorKind::usage, *at,
+              fmt::format("no such command: expected {}", base::enumerate(names)),
               suggestion(*at, names));
 }
 

@@ -208,7 +208,7 @@ void write_slice(const VolumeReader& from, const SamplePlan& plan, Invocation& i
   const std::unique_ptr<PictureSink> sink = open_picture_sink(plan.job.output, plan.sink);
   const Picture picture = read_plane(*thin, volume, plane.axis, plan, invocation);
   refuse_changed_inputs();
-  if (plan.format == "png") {
+  if (find_sink_format(plan.format)->greys) {
     write_grey(picture, *plan.slice, plan.job.output, *sink, invocation.console);
   } else {
     sink->write(picture, {});

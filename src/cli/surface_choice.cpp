@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mc/source.hpp"
+
 namespace mc::cli {
 
 namespace {
@@ -23,8 +25,9 @@ double as_compared(double value, SampleType type) {
 /// A volume that says itself where its surface is.
 std::optional<Iso> own_iso(const Volume& volume) {
   if (volume.iso) {
+    const SourceFormat* format = find_source_format(volume.format);
     return Iso{as_compared(*volume.iso, volume.type),
-               volume.format == "spec" ? "the spec's own" : "the file's own"};
+               std::string(format != nullptr ? format->own_iso : SourceFormat{}.own_iso)};
   }
   switch (volume.cls) {
     case VolumeClass::level_set:

@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/checked.hpp"
+#include "base/text.hpp"
 
 // Numbers, lists, sizes and names as they are typed on a command line.
 
@@ -194,18 +195,9 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
   return near.empty() ? std::string() : fmt::format("did you mean {}?", near);
 }
 
-std::string enumerate(std::span<const std::string_view> names) {
-  std::string text;
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    if (n > 0) text += n + 1 == names.size() ? " or " : ", ";
-    text += names[n];
-  }
-  return text;
-}
-
 void refuse_choice(std::string_view option, std::string_view text,
                    std::span<const std::string_view> known) {
-  refuse(option, fmt::format("unknown value '{}': expected {}", text, enumerate(known)),
+  refuse(option, fmt::format("unknown value '{}': expected {}", text, base::enumerate(known)),
          suggestion(text, known));
 }
 

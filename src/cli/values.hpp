@@ -49,9 +49,6 @@ std::string_view nearest_name(std::string_view name, std::span<const std::string
 /// "; did you mean X?" without the "; ", or "" if nothing is near.
 std::string suggestion(std::string_view name, std::span<const std::string_view> known);
 
-/// "a, b or c".
-std::string enumerate(std::span<const std::string_view> names);
-
 [[noreturn]] void refuse_choice(std::string_view option, std::string_view text,
                                 std::span<const std::string_view> known);
 

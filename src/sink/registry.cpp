@@ -1,147 +1,137 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <string>
 
+#include "base/text.hpp"
 #include "mc/sink.hpp"
-#include "sink/gltf/gltf_sink.hpp"
-#include "sink/obj/obj_sink.hpp"
-#include "sink/ply/ply_sink.hpp"
-#include "sink/stl/stl_sink.hpp"
+#include "sink/formats.hpp"
 
-// What can be written, by name and extension; a new mesh format is one line of the table.
+// What an output becomes, by name and extension, and who writes it.
 
 namespace mc {
 
 namespace {
 
-#if MC_WITH_GLTF
-constexpr auto open_glb = sink::open_glb;
-constexpr auto open_gltf = sink::open_gltf;
-#else
-std::unique_ptr<MeshSink> open_glb(const std::string& path, const SinkOptions& /*options*/) {
-  throw Error(ErrorKind::usage, path, "this build cannot write glTF",
-              "install libtinygltf-dev and build again, or write .ply");
-}
-constexpr auto open_gltf = open_glb;
-#endif
+bool holds_meshes(const SinkFormat& format) { return format.open_mesh != nullptr; }
+bool holds_volumes(const SinkFormat& format) { return format.open_volume != nullptr; }
+bool holds_pictures(const SinkFormat& format) { return format.open_picture != nullptr; }
 
-using OpenMesh = std::unique_ptr<MeshSink> (*)(const std::string&, const SinkOptions&);
-
-struct Format {
-  std::string_view name;  // also the extension
-  OpenMesh open;          // none: a volume format
-  bool has_text_form = false;
-  bool holds_several = false;
-  bool holds_materials = false;
-};
-
-constexpr std::array kFormats{
-    Format{"ply", sink::open_ply, true, false, true},
-    Format{"obj", sink::open_obj, true, true},
-    Format{"stl", sink::open_stl, true, false},
-    Format{"glb", open_glb, false, true, true},
-    Format{"gltf", open_gltf, false, true, true},
-    Format{"vdb", nullptr},
-    Format{"nrrd", nullptr},
-    Format{"raw", nullptr},
-    Format{"exr", nullptr},
-    Format{"png", nullptr},
-};
-constexpr std::string_view kFormatList = "ply, obj, stl, glb, gltf, vdb, nrrd, raw, exr or png";
-
-const Format* format_named(std::string_view name) {
-  const auto* found = std::find_if(kFormats.begin(), kFormats.end(),
-                                   [&](const Format& f) { return f.name == name; });
-  return found == kFormats.end() ? nullptr : found;
+/// "a, b or c": the formats for which `matches` is true.
+template <class Matches>
+std::string list_of(const SinkOptions& options, Matches&& matches) {
+  return base::enumerate(sink::names_of(options.further_formats, matches));
 }
 
-[[noreturn]] void unknown(std::string_view place, const std::string& what,
+/// The formats of `first`, then those of `second`.
+template <class First, class Second>
+std::string list_of(const SinkOptions& options, First&& first, Second&& second) {
+  auto names = sink::names_of(options.further_formats, first);
+  const auto others = sink::names_of(options.further_formats, second);
+  names.insert(names.end(), others.begin(), others.end());
+  return base::enumerate(names);
+}
+
+[[noreturn]] void unknown(std::string_view place, std::string_view what, const SinkOptions& options,
                           std::string_view remedy = {}) {
-  throw Error(ErrorKind::usage, place, what + ": expected " + std::string(kFormatList), remedy);
+  const std::string list = list_of(options, [](const SinkFormat&) { return true; });
+  throw Error(ErrorKind::usage, place, fmt::format("{}: expected {}", what, list), remedy);
 }
 
-/// The extension in lower case, without its dot; empty where there is none.
-std::string extension_of(std::string_view path) {
-  const std::string_view name = path.substr(path.rfind('/') + 1);
-  const std::size_t dot = name.rfind('.');
-  std::string extension(dot == std::string_view::npos ? "" : name.substr(dot + 1));
-  for (char& c : extension) {
-    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+const SinkFormat* format_of_extension(std::string_view extension, SinkFormats further) {
+  for (const SinkFormats formats : {sink_formats(), further}) {
+    const auto found = std::ranges::find_if(formats, [&](const SinkFormat* format) {
+      return base::has_word(format->extensions, extension);
+    });
+    if (found != formats.end()) return *found;
   }
-  return extension;
+  return nullptr;
+}
+
+/// What the format holds.
+std::string_view kind_of(const SinkFormat& format) {
+  return holds_meshes(format) ? "meshes" : holds_volumes(format) ? "volumes" : "pictures";
+}
+
+void check_form(const std::string& path, const SinkFormat& format, const SinkOptions& options) {
+  if (options.ascii && format.text == TextForm::none) {
+    const auto with = [](TextForm form) {
+      return [form](const SinkFormat& other) { return other.text == form; };
+    };
+    throw Error(ErrorKind::usage, "--ascii", fmt::format("{} has no text form", format.name),
+                fmt::format("write {}",
+                            list_of(options, with(TextForm::optional), with(TextForm::always))));
+  }
+  if (options.precision && !format.precision) {
+    throw Error(ErrorKind::usage, "--precision",
+                fmt::format("{} has one precision only", format.name),
+                fmt::format("leave it out, or write {}",
+                            list_of(options, [](const SinkFormat& f) { return f.precision; })));
+  }
+  if (options.memory != nullptr && !format.to_memory) {
+    throw Error(
+        ErrorKind::usage, path, fmt::format("{} cannot be written to memory", format.name),
+        fmt::format("write {}", list_of(options, [](const SinkFormat& f) { return f.to_memory; })));
+  }
 }
 
 }  // namespace
 
-std::string output_format(std::string_view path, const SinkOptions& options) {
+const SinkFormat& output_format(std::string_view path, const SinkOptions& options) {
   if (!options.to.empty()) {
-    if (format_named(options.to) == nullptr) {
-      unknown("--to", "unknown format \"" + options.to + "\"");
+    const SinkFormat* named = find_sink_format(options.to, options.further_formats);
+    if (named == nullptr) {
+      unknown("--to", fmt::format("unknown format \"{}\"", options.to), options);
     }
-    return options.to;
+    return *named;
   }
   if (path == "-") {
-    unknown("<stdout>", "no format given", "add --to FORMAT");
+    unknown("<stdout>", "no format given", options, "add --to FORMAT");
   }
-  std::string extension = extension_of(path);
+  const std::string extension = base::extension_of(path);
   if (extension.empty()) {
-    unknown(path, "no extension that names a format", "add one, or --to FORMAT");
+    unknown(path, "no extension that names a format", options, "add one, or --to FORMAT");
   }
-  if (format_named(extension) == nullptr) {
-    unknown(path, "unknown output format \"" + extension + "\"", "change it, or add --to FORMAT");
+  const SinkFormat* format = format_of_extension(extension, options.further_formats);
+  if (format == nullptr) {
+    unknown(path, fmt::format("unknown output format \"{}\"", extension), options,
+            "change it, or add --to FORMAT");
   }
-  return extension;
-}
-
-bool is_mesh_format(std::string_view format) {
-  const Format* found = format_named(format);
-  return found != nullptr && found->open != nullptr;
-}
-
-MeshNeeds mesh_needs(std::string_view format, const SinkOptions& options, bool f32_moves) {
-  const Precision exact = f32_moves ? Precision::f64 : Precision::f32;
-  if (format == "ply") {
-    const Precision precision = options.precision.value_or(exact);
-    return {.precision = precision, .formatted = sink::ply_formatted(precision, options.ascii)};
-  }
-  if (format == "obj") {
-    return {.precision = exact, .formatted = sink::obj_formatted(exact)};
-  }
-  if (format == "stl") {
-    return {.formatted = sink::kStlFormatted};
-  }
-  return {.relative_origin = f32_moves, .formatted = sink::kGltfFormatted};
-}
-
-bool holds_materials(std::string_view format) {
-  const Format* found = format_named(format);
-  return found != nullptr && found->holds_materials;
-}
-
-bool holds_several_objects(std::string_view format) {
-  const Format* found = format_named(format);
-  return found != nullptr && found->holds_several;
+  return *format;
 }
 
 std::unique_ptr<MeshSink> open_mesh_sink(const std::string& path, const SinkOptions& options) {
-  const std::string name = output_format(path, options);
-  const Format& format = *format_named(name);
-  if (format.open == nullptr) {
-    throw Error(ErrorKind::usage, path, name + " holds volumes, but this is a mesh",
-                "write ply, obj, stl, glb or gltf");
+  const SinkFormat& format = output_format(path, options);
+  if (!holds_meshes(format)) {
+    throw Error(ErrorKind::usage, path,
+                fmt::format("{} holds volumes, but this is a mesh", format.name),
+                fmt::format("write {}", list_of(options, holds_meshes)));
   }
-  if (options.ascii && !format.has_text_form) {
-    throw Error(ErrorKind::usage, "--ascii", name + " has no text form", "write ply, stl or obj");
+  check_form(path, format, options);
+  return format.open_mesh(path, options);
+}
+
+std::unique_ptr<VolumeSink> open_volume_sink(const std::string& path, const SinkOptions& options) {
+  const SinkFormat& format = output_format(path, options);
+  if (!holds_volumes(format)) {
+    throw Error(ErrorKind::usage, path,
+                fmt::format("{} holds {}, but this is a volume", format.name, kind_of(format)),
+                fmt::format("write {}", list_of(options, holds_volumes)));
   }
-  if (options.precision && name != "ply") {
-    throw Error(ErrorKind::usage, "--precision", name + " has one precision only",
-                "leave it out, or write ply");
+  return format.open_volume(path, options);
+}
+
+std::unique_ptr<PictureSink> open_picture_sink(const std::string& path,
+                                               const SinkOptions& options) {
+  const SinkFormat& format = output_format(path, options);
+  if (!holds_pictures(format)) {
+    const auto only = [](const SinkFormat& f) { return holds_pictures(f) && !holds_volumes(f); };
+    const auto both = [](const SinkFormat& f) { return holds_pictures(f) && holds_volumes(f); };
+    throw Error(ErrorKind::usage, path, fmt::format("{} holds no pictures", format.name),
+                fmt::format("write {}", list_of(options, only, both)));
   }
-  if (options.memory != nullptr && name != "glb") {
-    throw Error(ErrorKind::usage, path, name + " cannot be written to memory", "write glb");
-  }
-  return format.open(path, options);
+  return format.open_picture(path, options);
 }
 
 }  // namespace mc

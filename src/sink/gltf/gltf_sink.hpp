@@ -9,9 +9,6 @@
 
 namespace mc::sink {
 
-/// What is made of a chunk's vertices, with normals, and triangles.
-inline constexpr Formatted kGltfFormatted{.vertex_bytes = 24, .triangle_bytes = 12};
-
 /// glTF 2.0 in one binary file. Errors: output.
 std::unique_ptr<MeshSink> open_glb(const std::string& path, const SinkOptions& options);
 /// The same with a file of at most `most_bytes`: what tests want.
@@ -24,5 +21,30 @@ std::unique_ptr<MeshSink> open_gltf(const std::string& path, const SinkOptions& 
 /// tests want.
 std::unique_ptr<MeshSink> open_gltf_of(const std::string& path, const SinkOptions& options,
                                        std::uint64_t most_bytes);
+MeshNeeds gltf_needs(const SinkOptions& options, bool f32_moves);
+
+inline constexpr SinkFormat kGlbFormat{.name = "glb",
+                                       .display = "GLB",
+                                       .extensions = "glb",
+                                       .package = "libtinygltf-dev",
+                                       .built_in = MC_WITH_GLTF != 0,
+                                       .open_mesh = open_glb,
+                                       .needs = gltf_needs,
+                                       .holds_materials = true,
+                                       .several_objects = true,
+                                       .y_up_metres = true,
+                                       .to_memory = true};
+
+inline constexpr SinkFormat kGltfFormat{.name = "gltf",
+                                        .display = "glTF",
+                                        .extensions = "gltf",
+                                        .package = "libtinygltf-dev",
+                                        .built_in = MC_WITH_GLTF != 0,
+                                        .open_mesh = open_gltf,
+                                        .needs = gltf_needs,
+                                        .holds_materials = true,
+                                        .several_objects = true,
+                                        .y_up_metres = true,
+                                        .one_file = false};
 
 }  // namespace mc::sink

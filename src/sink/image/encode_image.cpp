@@ -5,6 +5,9 @@
 #include "base/module.hpp"
 #endif
 
+#include "sink/formats.hpp"
+#include "sink/image/image_formats.hpp"
+
 // From a kind of picture to what writes it.
 
 namespace mc::sink {
@@ -36,16 +39,12 @@ void encode_image(ImageKind kind, const std::string& place, [[maybe_unused]] con
                   [[maybe_unused]] const SliceOf& slice,
                   [[maybe_unused]] const SinkOptions& options,
                   [[maybe_unused]] Buffer<std::byte>& out) {
-  const bool exr = kind == ImageKind::exr;
 #if MC_WITH_PNG || MC_WITH_EXR
-  if ((exr && MC_WITH_EXR) || (!exr && MC_WITH_PNG)) {
+  if (format_of(kind).built_in) {
     return encoder(place)(kind, picture, slice, options, out);
   }
 #endif
-  throw Error(ErrorKind::usage, place,
-              std::string("this build cannot write ") + (exr ? "OpenEXR" : "PNG"),
-              std::string("install ") + (exr ? "libopenexr-dev" : "libpng-dev") +
-                  " and build again, or write .nrrd");
+  refuse_absent(format_of(kind), place);
 }
 
 }  // namespace mc::sink

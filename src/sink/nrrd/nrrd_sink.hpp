@@ -13,4 +13,7 @@ namespace mc::sink {
 /// Half samples are written as float, which holds each of them exactly.
 std::unique_ptr<VolumeSink> open_nrrd(const std::string& path, const SinkOptions& options);
 
+inline constexpr SinkFormat kNrrdFormat{
+    .name = "nrrd", .display = "NRRD", .extensions = "nrrd", .open_volume = open_nrrd};
+
 }  // namespace mc::sink

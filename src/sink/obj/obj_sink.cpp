@@ -157,9 +157,12 @@ void ObjSink::end_object(const MeshTotals& /*totals*/) {
 
 }  // namespace
 
-Formatted obj_formatted(Precision precision) {
-  return {static_cast<std::uint32_t>(vertex_line(precision).usual + kNormalLine.usual),
-          static_cast<std::uint32_t>(kFaceLine.usual)};
+MeshNeeds obj_needs(const SinkOptions& /*options*/, bool f32_moves) {
+  const Precision precision = f32_moves ? Precision::f64 : Precision::f32;
+  return {
+      .precision = precision,
+      .formatted = {static_cast<std::uint32_t>(vertex_line(precision).usual + kNormalLine.usual),
+                    static_cast<std::uint32_t>(kFaceLine.usual)}};
 }
 
 std::unique_ptr<MeshSink> open_obj(const std::string& path, const SinkOptions& options) {

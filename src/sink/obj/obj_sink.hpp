@@ -8,10 +8,16 @@
 
 namespace mc::sink {
 
-/// What is made of a chunk's vertices and triangles.
-Formatted obj_formatted(Precision precision);
-
 /// Wavefront OBJ, always text. Errors: output.
 std::unique_ptr<MeshSink> open_obj(const std::string& path, const SinkOptions& options);
+MeshNeeds obj_needs(const SinkOptions& options, bool f32_moves);
+
+inline constexpr SinkFormat kObjFormat{.name = "obj",
+                                       .display = "OBJ",
+                                       .extensions = "obj",
+                                       .open_mesh = open_obj,
+                                       .needs = obj_needs,
+                                       .text = TextForm::always,
+                                       .several_objects = true};
 
 }  // namespace mc::sink

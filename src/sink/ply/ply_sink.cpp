@@ -37,6 +37,15 @@ constexpr std::size_t position_bytes(Precision precision) {
   return precision == Precision::f64 ? 24 : 12;
 }
 
+/// What is made of a chunk's vertices and triangles.
+Formatted formatted(Precision precision, bool ascii) {
+  if (ascii) {
+    return {static_cast<std::uint32_t>(vertex_line(precision).usual),
+            static_cast<std::uint32_t>(kFaceLine.usual)};
+  }
+  return {static_cast<std::uint32_t>(position_bytes(precision) + kNormalBytes), kFaceBytes};
+}
+
 class PlySink final : public MeshSink {
  public:
   PlySink(const std::string& path, const SinkOptions& options, const PlyLimits& limits)
@@ -248,12 +257,10 @@ void PlySink::finish() {
 
 }  // namespace
 
-Formatted ply_formatted(Precision precision, bool ascii) {
-  if (ascii) {
-    return {static_cast<std::uint32_t>(vertex_line(precision).usual),
-            static_cast<std::uint32_t>(kFaceLine.usual)};
-  }
-  return {static_cast<std::uint32_t>(position_bytes(precision) + kNormalBytes), kFaceBytes};
+MeshNeeds ply_needs(const SinkOptions& options, bool f32_moves) {
+  const Precision precision =
+      options.precision.value_or(f32_moves ? Precision::f64 : Precision::f32);
+  return {.precision = precision, .formatted = formatted(precision, options.ascii)};
 }
 
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options) {

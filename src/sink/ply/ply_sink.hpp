@@ -9,11 +9,18 @@
 
 namespace mc::sink {
 
-/// What is made of a chunk's vertices and triangles.
-Formatted ply_formatted(Precision precision, bool ascii);
-
 /// PLY, binary little endian or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options);
+MeshNeeds ply_needs(const SinkOptions& options, bool f32_moves);
+
+inline constexpr SinkFormat kPlyFormat{.name = "ply",
+                                       .display = "PLY",
+                                       .extensions = "ply",
+                                       .open_mesh = open_ply,
+                                       .needs = ply_needs,
+                                       .text = TextForm::optional,
+                                       .precision = true,
+                                       .holds_materials = true};
 
 /// How far the indices of PLY reach.
 struct PlyLimits {

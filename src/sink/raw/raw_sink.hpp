@@ -14,4 +14,7 @@ namespace mc::sink {
 /// since the header could not name them otherwise.
 std::unique_ptr<VolumeSink> open_raw(const std::string& path, const SinkOptions& options);
 
+inline constexpr SinkFormat kRawFormat{
+    .name = "raw", .display = "raw data", .extensions = "raw", .open_volume = open_raw};
+
 }  // namespace mc::sink

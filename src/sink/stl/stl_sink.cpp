@@ -246,6 +246,11 @@ void StlSink::finish() {
 
 }  // namespace
 
+MeshNeeds stl_needs(const SinkOptions& /*options*/, bool /*f32_moves*/) {
+  // Of a chunk: positions as floats, ids of the whole mesh.
+  return {.formatted = {.vertex_bytes = 12, .triangle_bytes = 12}};
+}
+
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options) {
   return open_stl_of(path, options, kMostFacets);
 }

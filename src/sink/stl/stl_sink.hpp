@@ -9,11 +9,18 @@
 
 namespace mc::sink {
 
-/// What is made of a chunk: positions as floats, ids of the whole mesh.
-inline constexpr Formatted kStlFormatted{.vertex_bytes = 12, .triangle_bytes = 12};
-
 /// STL, binary or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options);
+MeshNeeds stl_needs(const SinkOptions& options, bool f32_moves);
+
+inline constexpr SinkFormat kStlFormat{.name = "stl",
+                                       .display = "STL",
+                                       .extensions = "stl",
+                                       .open_mesh = open_stl,
+                                       .needs = stl_needs,
+                                       .text = TextForm::optional,
+                                       .has_normals = false};
+
 /// The same with a count of facets that holds less: what tests want.
 std::unique_ptr<MeshSink> open_stl_of(const std::string& path, const SinkOptions& options,
                                       std::uint64_t most_facets);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "sink/formats.hpp"
 #include "sink/output_file.hpp"
 #include "sink/vdb/open_module.hpp"
 #include "sink/vdb/rewritable_stream.hpp"
@@ -61,8 +62,7 @@ std::unique_ptr<VolumeSink> open_vdb(const std::string& path, const SinkOptions&
 #else
 
 std::unique_ptr<VolumeSink> open_vdb(const std::string& path, const SinkOptions& /*options*/) {
-  throw Error(ErrorKind::usage, path, "this build cannot write VDB",
-              "install libopenvdb-dev and build again, or write .nrrd");
+  refuse_absent(kVdbFormat, path);
 }
 
 #endif

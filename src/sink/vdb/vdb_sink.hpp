@@ -25,4 +25,11 @@ namespace mc::sink {
 /// Errors   usage: built without OpenVDB; output: a map that cannot be inverted.
 std::unique_ptr<VolumeSink> open_vdb(const std::string& path, const SinkOptions& options);
 
+inline constexpr SinkFormat kVdbFormat{.name = "vdb",
+                                       .display = "VDB",
+                                       .extensions = "vdb",
+                                       .package = "libopenvdb-dev",
+                                       .built_in = MC_WITH_VDB != 0,
+                                       .open_volume = open_vdb};
+
 }  // namespace mc::sink

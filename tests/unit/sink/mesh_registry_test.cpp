@@ -11,10 +11,10 @@ SinkOptions to(const std::string& format) {
 }
 
 TEST(MeshRegistry, FormatIsNamedOrTheExtension) {
-  EXPECT_EQ(output_format("a/b.c/d.PLY", {}), "ply");
-  EXPECT_EQ(output_format("d.nrrd", {}), "nrrd");
-  EXPECT_EQ(output_format("d.ply", to("stl")), "stl");
-  EXPECT_EQ(output_format("-", to("glb")), "glb");
+  EXPECT_EQ(output_format("a/b.c/d.PLY", {}).name, "ply");
+  EXPECT_EQ(output_format("d.nrrd", {}).name, "nrrd");
+  EXPECT_EQ(output_format("d.ply", to("stl")).name, "stl");
+  EXPECT_EQ(output_format("-", to("glb")).name, "glb");
 }
 
 TEST(MeshRegistry, UnknownFormatsListTheKnown) {
@@ -32,22 +32,26 @@ TEST(MeshRegistry, UnknownFormatsListTheKnown) {
 
 TEST(MeshRegistry, KnowsWhatFormatsHold) {
   for (const char* name : {"ply", "obj", "stl", "glb", "gltf"}) {
-    EXPECT_TRUE(is_mesh_format(name)) << name;
+    EXPECT_NE(find_sink_format(name)->open_mesh, nullptr) << name;
   }
-  for (const char* name : {"vdb", "nrrd", "raw", "exe"}) {
-    EXPECT_FALSE(is_mesh_format(name)) << name;
-    EXPECT_FALSE(holds_several_objects(name)) << name;
+  EXPECT_EQ(find_sink_format("exe"), nullptr);
+  for (const char* name : {"vdb", "nrrd", "raw"}) {
+    EXPECT_EQ(find_sink_format(name)->open_mesh, nullptr) << name;
+    EXPECT_FALSE(find_sink_format(name)->several_objects) << name;
   }
-  EXPECT_FALSE(holds_several_objects("ply"));
-  EXPECT_FALSE(holds_several_objects("stl"));
-  EXPECT_TRUE(holds_several_objects("obj"));
-  EXPECT_TRUE(holds_several_objects("glb"));
+  EXPECT_FALSE(find_sink_format("ply")->several_objects);
+  EXPECT_FALSE(find_sink_format("stl")->several_objects);
+  EXPECT_TRUE(find_sink_format("obj")->several_objects);
+  EXPECT_TRUE(find_sink_format("glb")->several_objects);
+  EXPECT_TRUE(find_sink_format("gltf")->y_up_metres);
+  EXPECT_FALSE(find_sink_format("gltf")->one_file);
+  EXPECT_FALSE(find_sink_format("stl")->has_normals);
 }
 
 TEST(MeshRegistry, PositionsComeAsTheFormatWants) {
   const auto needs = [](const char* format, bool moves, std::optional<Precision> asked = {}) {
     const MeshNeeds made =
-        mesh_needs(format, {.to = {}, .precision = asked, .provenance = {}}, moves);
+        find_sink_format(format)->needs({.to = {}, .precision = asked, .provenance = {}}, moves);
     return std::pair(made.precision, made.relative_origin);
   };
   for (const char* format : {"ply", "obj", "stl", "glb", "gltf"}) {
