@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The include law: which room may see which, and the one door of each library.
+"""The include law: which room may see which, and the one door of each library; and where the name
+of a file format may stand.
 
     includes.py [ROOT]
 
 Reads every source below ROOT/include and ROOT/src (default: this tree), prints one line for each
-forbidden include, and ends with 1 if there was any. Tests may include what they like.
+forbidden include or name, and ends with 1 if there was any. Tests may include what they like.
 """
 
 import fnmatch
@@ -58,6 +59,16 @@ SYSTEM = re.compile(
 )
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(["<])([^">]+)[">]')
 
+# A format is a row in a folder below src/source or src/sink. Its name may stand only there and where
+# a row has it as an extension; the row itself also in its room's list.
+ROW = re.compile(r'constexpr (?:Source|Sink)Format (k\w+)\s*\{\s*\.name = "(\w*)"')
+EXTENSIONS = re.compile(r'\.extensions = "([\w ]*)"')
+ROW_LIST = "formats.cpp"
+# A literal that is nothing but a name, perhaps as an extension.
+QUOTED = re.compile(r'"\.?(\w+)"')
+# The same words with another meaning: an encoding of NRRD, a class of volumes.
+OTHER_MEANINGS = {"raw": ["source/nrrd/*"], "spec": ["*/surface_choice.cpp"]}
+
 
 def library_fault(path, name):
     """Why the file `path`, relative to src/, may not include the library header `name`."""
@@ -104,7 +115,43 @@ def simd_fault(path, text):
     return None
 
 
+class Formats:
+    """The rows of the formats below src/, and where each may be named."""
+
+    def __init__(self, source):
+        self.homes = {}  # name: folders
+        self.others = {word: list(paths) for word, paths in OTHER_MEANINGS.items()}
+        self.rows = {}  # room, row: folder
+        for room in ("source", "sink"):
+            for file in sorted((source / room).rglob("*.hpp")):
+                folder = file.parent.relative_to(source).as_posix()
+                text = file.read_text(encoding="utf-8")
+                for words in EXTENSIONS.findall(text):
+                    for word in words.split():
+                        self.others.setdefault(word, []).append(folder + "/*")
+                for row, name in ROW.findall(text):
+                    self.rows[room, row] = folder
+                    if name:
+                        self.homes.setdefault(name, []).append(folder + "/*")
+
+    def faults(self, path, line):
+        """What is wrong with the names in a line of the file `path`, relative to src/."""
+        if line.lstrip().startswith("//"):
+            return
+        for name in QUOTED.findall(line):
+            homes = self.homes.get(name, [])
+            allowed = homes + self.others.get(name, [])
+            if homes and not any(fnmatch.fnmatchcase(path, home) for home in allowed):
+                yield f'format name "{name}": ask its row, in src/{" or src/".join(homes)}'
+        room = path.split("/")[0]
+        for word in re.findall(r"\bk\w+Format\b", line):
+            home = self.rows.get((room, word))
+            if home and not path.startswith(home + "/") and path != f"{room}/{ROW_LIST}":
+                yield f"row {word}: only src/{home} and src/{room}/{ROW_LIST} name it"
+
+
 def faults(root):
+    formats = Formats(root / "src")
     for folder, fault in (("include", public_fault), ("src", source_fault)):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix not in {".hpp", ".cpp", ".h", ".inl"}:
@@ -118,6 +165,8 @@ def faults(root):
                 why = match and fault(path, match[1], match[2])
                 if why:
                     yield f"{folder}/{path}:{number}: forbidden include {match[2]}: {why}"
+                for why in formats.faults(path, line) if folder == "src" else ():
+                    yield f"src/{path}:{number}: {why}"
 
 
 def main():

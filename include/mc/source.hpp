@@ -177,7 +177,7 @@ struct SourceFormat {
   /// in, and its open() refuses with that package's name.
   std::string_view package{};
   bool built_in = true;
-  /// Looks at the first kHeadBytes of a file, then at kLongHeadBytes. Null: has no mark.
+  /// Decides by the first kHeadBytes of a file; if unsure, by kLongHeadBytes. Null: never.
   Recognition (*recognise)(std::string_view head) = nullptr;
   SourceTakes takes{};
   /// Samples without a header: chosen by SourceOptions::dims with type.
@@ -185,14 +185,14 @@ struct SourceFormat {
   /// Extension of a header file of another format that may lie beside it, and is then opened in its
   /// place.
   std::string_view sidecar{};
-  bool several_files = false;  ///< slices: several files, or a folder, make one volume
+  bool several_files = false;  ///< several files, or a folder, are slices of one volume
   bool streams = false;        ///< reads a pipe in one pass, see SourceOptions::streams
-  std::string_view own_iso = "the file's own";  ///< why Volume::iso is taken
-  /// Null: known by name only, so that it can be refused by it.
+  std::string_view own_iso = "the file's own";  ///< reason shown when Volume::iso is used
+  /// Source::place is set by the caller. Null: cannot be read, and is known only to be refused.
   Source (*open)(SourceInput& input, const SourceOptions& options, Progress& progress) = nullptr;
   /// For files with several grids. Null: open() says everything.
   std::vector<GridDescription> (*describe)(SourceInput& input, Progress& progress) = nullptr;
-  std::string_view refusal{};  ///< without open(): why; empty: is not supported
+  std::string_view refusal{};  ///< without open(): the fault; empty: is not supported
 };
 
 /// Every format of this library, in the order in which they are listed and recognised.

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 """Holds the manual pages against the program.
 
-Every option in a command's table has its entry in the page and the other way round, and every line
-of the EXAMPLES section runs, in order, in a folder that holds ball.raw.
+Every option in a command's table has its entry in the page and the other way round, --from and --to
+list the same formats, and every line of the EXAMPLES section runs, in order, in a folder that holds
+ball.raw.
 """
 
 import argparse
@@ -30,6 +31,19 @@ def options_in_program(mc, command):
     words = [mc, "help", "--options"] + ([command] if command else [])
     listed = subprocess.run(words, capture_output=True, text=True, check=True).stdout
     return set(listed.split())
+
+
+def formats_in_page(text, option):
+    entry = re.search(rf"^\*\*{option}\*\* \*TYPE\*\n(.*?)\n\n", text, re.MULTILINE | re.DOTALL)
+    return set(re.findall(r"`(\w+)`", entry.group(1))) if entry else set()
+
+
+def formats_in_program(mc):
+    """{(command, option): formats}, as the shell completes them."""
+    script = subprocess.run([mc, "completion", "bash"], capture_output=True, text=True,
+                            check=True).stdout
+    values = re.findall(r"^ *(\w+):(--from|--to)\) words='(.*)' ;;$", script, re.MULTILINE)
+    return {(command, option): set(words.split()) for command, option, words in values}
 
 
 def examples(text):
@@ -59,11 +73,16 @@ def main():
     args = parser.parse_args()
     mc = args.mc.resolve()
     faults = []
+    formats = formats_in_program(mc)
     for page, command in COMMANDS.items():
         text = (args.man / f"{page}.1.md").read_text(encoding="utf-8")
         in_page, in_program = options_in_page(text), options_in_program(mc, command)
         faults += [f"{page}: {name} is not in the page" for name in sorted(in_program - in_page)]
         faults += [f"{page}: {name} is not an option" for name in sorted(in_page - in_program)]
+        for option in ("--from", "--to"):
+            listed = formats.get((command, option))
+            if listed and formats_in_page(text, option) != listed:
+                faults.append(f"{page}: {option} does not list {' '.join(sorted(listed))}")
         failed = failing_example(mc, examples(text))
         if failed:
             faults.append(f"{page}: example fails: {failed}")

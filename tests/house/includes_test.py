@@ -81,6 +81,51 @@ class IncludeLaw(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertEqual(lines, ["src/mesh/a_simd.cpp: wants no AVX3_DL: see src/base/highway_simd.cpp"])
 
+    ROWS = {
+        "src/source/abc/abc.hpp": 'inline constexpr SourceFormat kAbcFormat{.name = "abc",\n',
+        "src/source/formats.cpp": "// the list\n{&kAbcFormat}\n",
+        "src/sink/xyz/xyz.hpp": 'inline constexpr SinkFormat kXyzFormat{\n    .name = "xyz"};\n',
+    }
+
+    def test_formats_are_named_in_their_folder(self):
+        tree = {
+            "src/source/abc/abc.cpp": 'f("abc", kAbcFormat);\n',
+            "src/cli/help.cpp": '// "abc"\nf("smoke.abc", "abc files", abc, "other", ".other");\n',
+        }
+        self.assertEqual(run_on(self.ROWS | tree), (0, []))
+
+    def test_formats_are_named_nowhere_else(self):
+        why = 'format name "{0}": ask its row, in src/{1}/{0}/*'
+        tree = {
+            "src/cli/a.cpp": '\nif (format == "abc") f(".xyz");\n',
+            "src/sink/xyz/xyz.cpp": 'f("xyz", "abc");\n',
+        }
+        self.assertEqual(
+            run_on(self.ROWS | tree),
+            (
+                1,
+                [
+                    "src/cli/a.cpp:2: " + why.format("abc", "source"),
+                    "src/cli/a.cpp:2: " + why.format("xyz", "sink"),
+                    "src/sink/xyz/xyz.cpp:1: " + why.format("abc", "source"),
+                ],
+            ),
+        )
+
+    def test_rows_are_listed_once(self):
+        tree = {"src/source/registry.cpp": "f(kAbcFormat);\n"}
+        why = "row kAbcFormat: only src/source/abc and src/source/formats.cpp name it"
+        self.assertEqual(
+            run_on(self.ROWS | tree), (1, ["src/source/registry.cpp:1: " + why])
+        )
+
+    def test_words_with_another_meaning(self):
+        tree = {
+            "src/source/raw/raw.hpp": 'constexpr SourceFormat kRawFormat{.name = "raw"};\n',
+            "src/source/nrrd/header.cpp": 'encoding == "raw"\n',
+        }
+        self.assertEqual(run_on(tree), (0, []))
+
     def test_public_headers(self):
         why = "public headers include the standard library and mc/ only"
         self.forbidden("include/mc/base.hpp", "<fmt/format.h>", why)
