@@ -91,7 +91,7 @@ constexpr SinkFormat kPoints{.name = "points",
                              .extensions = "points pts",
                              .open_mesh = open_points,
                              .needs = [](const SinkOptions& /*options*/, bool moves) {
-                               return MeshNeeds{.relative_origin = moves};
+                               return MeshNeeds{Precision::f32, moves, {}};
                              }};
 constexpr std::array<const SinkFormat*, 1> kFurther{&kPoints};
 

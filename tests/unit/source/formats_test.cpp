@@ -31,7 +31,9 @@ std::vector<std::string> words_of(std::string_view text) {
 TEST(SourceFormats, NamesAndExtensionsAreUnique) {
   std::set<std::string> names, extensions;
   for (const SourceFormat* format : source_formats()) {
-    if (!format->name.empty()) EXPECT_TRUE(names.emplace(format->name).second) << format->name;
+    if (!format->name.empty()) {
+      EXPECT_TRUE(names.emplace(format->name).second) << format->name;
+    }
     for (const std::string& word : words_of(format->extensions)) {
       EXPECT_TRUE(extensions.insert(word).second) << word;
       EXPECT_EQ(word, base::lower_case(word));
@@ -162,7 +164,8 @@ TEST(FurtherSource, IsListedInMessages) {
 TEST(FurtherSource, TakesTheNameOfOneThatIsOnlyRefused) {
   static constexpr SourceFormat kNifti{
       .name = "nifti", .display = "my NIfTI", .extensions = "nii", .open = open_cube};
-  static constexpr SourceFormat kVdb{.name = "vdb", .display = "my VDB", .open = open_cube};
+  static constexpr SourceFormat kVdb{
+      .name = "vdb", .display = "my VDB", .extensions = "", .open = open_cube};
   static constexpr std::array<const SourceFormat*, 2> kRows{&kNifti, &kVdb};
   EXPECT_EQ(find_source_format("nifti", kRows), &kNifti);
   EXPECT_EQ(source::format_of_extension("nii", kRows), &kNifti);
