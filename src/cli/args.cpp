@@ -24,13 +24,14 @@ struct FormatHelp {
   const std::string mesh_values = joined(mesh_names());
   const std::string mesh_to =
       fmt::format("{} (default: by the output's extension)", base::enumerate(mesh_names()));
-  const std::string mesh_output = fmt::format("{}; - is stdout, with --to", dotted(mesh_names()));
+  const std::string mesh_output =
+      fmt::format("{}; - is stdout, with --to", sink::dotted(mesh_names()));
   const std::string volume_values = joined(volume_names());
   const std::string volume_to =
       fmt::format("{} (default: by the output's extension)", base::enumerate(volume_names()));
   const std::string volume_output =
-      fmt::format("{}, slices.####{}; with --slice {}", dotted(volumes(false)),
-                  dotted(volumes(true)), dotted(picture_names()));
+      fmt::format("{}, slices.####{}; with --slice {}", sink::dotted(volumes(false)),
+                  sink::dotted(volumes(true)), sink::dotted(sink::picture_names({})));
   const std::string ascii = fmt::format(
       "{}: text form", displays([](const SinkFormat& f) { return f.text == TextForm::optional; }));
   const std::string precision = fmt::format(

@@ -26,15 +26,9 @@ Names sink_names(Matches&& matches) {
 Names mesh_names();
 /// Formats of volumes and pictures.
 Names volume_names();
-/// Formats of single pictures; those that hold volumes too come last.
-Names picture_names();
-/// Formats that hold several objects in a file; those in text come last.
-Names several_object_names();
 
 /// "a b c".
 std::string joined(const Names& names);
-/// ".a, .b or .c".
-std::string dotted(const Names& names);
 
 /// What the chunks of an edited surface are written as.
 const SinkFormat& chunk_format();

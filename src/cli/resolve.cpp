@@ -96,7 +96,7 @@ void resolve_surface(const ExtractArgs& args, ExtractPlan& plan) {
     refuse("--iso",
            fmt::format("{} values, but {} holds one object a file", plan.isos.size(), plan.format),
            fmt::format("choose {}, or extract them one by one",
-                       base::enumerate(several_object_names())));
+                       base::enumerate(sink::several_object_names())));
   }
   if (args.inside) {
     static constexpr std::array<std::pair<std::string_view, std::optional<Inside>>, 3> kSides{
@@ -304,10 +304,10 @@ std::optional<SliceChoice> resolve_slice(const SampleArgs& args, const SinkForma
     return std::nullopt;
   }
   if (format.open_picture == nullptr) {
-    refuse(
-        "--slice",
-        fmt::format("{} holds volumes: expected {}", format.name, base::enumerate(picture_names())),
-        "for a part of a volume use --region");
+    refuse("--slice",
+           fmt::format("{} holds volumes: expected {}", format.name,
+                       base::enumerate(sink::picture_names({}))),
+           "for a part of a volume use --region");
   }
   SliceChoice slice = parse_slice(*args.slice);
   if (args.bits) {

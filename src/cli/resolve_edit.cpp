@@ -41,7 +41,7 @@ EditOutput resolve_output(const EditArgs& args, const std::string& path, const S
     const Names whole = sink_names(
         [](const SinkFormat& f) { return f.open_volume != nullptr && f.open_picture == nullptr; });
     refuse(path, fmt::format("{} holds one slice of a volume", format.name),
-           fmt::format("write {}, then use mc sample", dotted(whole)));
+           fmt::format("write {}, then use mc sample", sink::dotted(whole)));
   }
   SampleArgs volume;
   volume.source = args.mesh.source;

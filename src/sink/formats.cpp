@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/text.hpp"
 #include "sink/gltf/gltf_sink.hpp"
 #include "sink/image/image_formats.hpp"
 #include "sink/nrrd/nrrd_sink.hpp"
@@ -26,6 +27,36 @@ constexpr std::array<const SinkFormat*, 10> kFormats{
     &kVdbFormat, &kNrrdFormat, &kRawFormat, &kExrFormat, &kPngFormat};
 
 }  // namespace
+
+std::vector<std::string_view> picture_names(SinkFormats further) {
+  const auto picture = [](bool volume) {
+    return [volume](const SinkFormat& f) {
+      return f.open_picture != nullptr && (f.open_volume != nullptr) == volume;
+    };
+  };
+  return names_of(further, picture(false), picture(true));
+}
+
+std::string dotted(std::span<const std::string_view> names) {
+  std::vector<std::string> extensions;
+  for (const std::string_view name : names) extensions.push_back(fmt::format(".{}", name));
+  return base::enumerate(std::vector<std::string_view>(extensions.begin(), extensions.end()));
+}
+
+std::vector<std::string_view> several_object_names() {
+  const auto several = [](bool text) {
+    return [text](const SinkFormat& f) {
+      return f.several_objects && (f.text == TextForm::always) == text;
+    };
+  };
+  return names_of({}, several(false), several(true));
+}
+
+void refuse_second_object(const SinkFormat& format, std::string_view place) {
+  throw Error(ErrorKind::usage, place,
+              fmt::format("{} holds one mesh, but there are several", format.display),
+              fmt::format("write {}, or one iso a file", dotted(several_object_names())));
+}
 
 void refuse_absent(const SinkFormat& format, std::string_view place) {
   const bool mesh = format.open_mesh != nullptr;

@@ -18,19 +18,10 @@ bool holds_meshes(const SinkFormat& format) { return format.open_mesh != nullptr
 bool holds_volumes(const SinkFormat& format) { return format.open_volume != nullptr; }
 bool holds_pictures(const SinkFormat& format) { return format.open_picture != nullptr; }
 
-/// "a, b or c": the formats for which `matches` is true.
-template <class Matches>
-std::string list_of(const SinkOptions& options, Matches&& matches) {
-  return base::enumerate(sink::names_of(options.further_formats, matches));
-}
-
-/// The formats of `first`, then those of `second`.
-template <class First, class Second>
-std::string list_of(const SinkOptions& options, First&& first, Second&& second) {
-  auto names = sink::names_of(options.further_formats, first);
-  const auto others = sink::names_of(options.further_formats, second);
-  names.insert(names.end(), others.begin(), others.end());
-  return base::enumerate(names);
+/// "a, b or c": sink::names_of() for messages.
+template <class... Matches>
+std::string list_of(const SinkOptions& options, Matches&&... matches) {
+  return base::enumerate(sink::names_of(options.further_formats, matches...));
 }
 
 [[noreturn]] void unknown(std::string_view place, std::string_view what, const SinkOptions& options,
@@ -126,10 +117,9 @@ std::unique_ptr<PictureSink> open_picture_sink(const std::string& path,
                                                const SinkOptions& options) {
   const SinkFormat& format = output_format(path, options);
   if (!holds_pictures(format)) {
-    const auto only = [](const SinkFormat& f) { return holds_pictures(f) && !holds_volumes(f); };
-    const auto both = [](const SinkFormat& f) { return holds_pictures(f) && holds_volumes(f); };
-    throw Error(ErrorKind::usage, path, fmt::format("{} holds no pictures", format.name),
-                fmt::format("write {}", list_of(options, only, both)));
+    throw Error(
+        ErrorKind::usage, path, fmt::format("{} holds no pictures", format.name),
+        fmt::format("write {}", base::enumerate(sink::picture_names(options.further_formats))));
   }
   return format.open_picture(path, options);
 }

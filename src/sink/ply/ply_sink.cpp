@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
 #include "sink/part.hpp"
@@ -132,8 +133,7 @@ std::string PlySink::header(const ObjectCounts& counts) const {
 
 void PlySink::begin_object(const MeshObject& object) {
   if (begun_) {
-    throw Error(ErrorKind::usage, out_.place(), "PLY holds one mesh, but there are several",
-                "write .glb, .gltf or .obj, or one iso a file");
+    refuse_second_object(kPlyFormat, out_.place());
   }
   object_ = object;
   begun_ = true;

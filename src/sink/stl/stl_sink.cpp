@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
 #include "sink/part.hpp"
@@ -152,8 +153,7 @@ std::string StlSink::header() const {
 
 void StlSink::begin_object(const MeshObject& object) {
   if (begun_) {
-    throw Error(ErrorKind::usage, out_.place(), "STL holds one mesh, but there are several",
-                "write .glb, .gltf or .obj, or one iso a file");
+    refuse_second_object(kStlFormat, out_.place());
   }
   begun_ = true;
   object_ = object;

@@ -17,9 +17,9 @@ using testing::HasSubstr;
 TEST(FormatLists, ComeInTheOrderOfTheRows) {
   EXPECT_THAT(mesh_names(), ElementsAre("ply", "obj", "stl", "glb", "gltf"));
   EXPECT_THAT(volume_names(), ElementsAre("vdb", "nrrd", "raw", "exr", "png"));
-  EXPECT_THAT(picture_names(), ElementsAre("png", "exr"));
-  EXPECT_THAT(several_object_names(), ElementsAre("glb", "gltf", "obj"));
-  EXPECT_EQ(dotted(picture_names()), ".png or .exr");
+  EXPECT_THAT(sink::picture_names({}), ElementsAre("png", "exr"));
+  EXPECT_THAT(sink::several_object_names(), ElementsAre("glb", "gltf", "obj"));
+  EXPECT_EQ(sink::dotted(sink::picture_names({})), ".png or .exr");
   EXPECT_EQ(joined(source_names()), "vdb raw nrrd spec exr png");
   EXPECT_EQ(chunk_format().name, "glb");
 }
