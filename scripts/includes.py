@@ -25,12 +25,13 @@ ROOMS = {
     "pipe": "base field edit extract mesh",
     "source": "base field graph edit mesh",
     "sink": "base field mesh",
-    "cli": "base field graph edit mesh extract pipe source sink",
+    "convert": "base field graph edit mesh extract pipe source sink",
+    "cli": "base field graph edit mesh extract pipe source sink convert",
 }
 CORE = {"base", "field", "graph", "edit", "mesh", "extract", "pipe"}
 
 # Public headers that the core does not see: it knows no file format.
-IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp"}
+IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp", "mc/host.hpp"}
 
 # include pattern: the files below src/ that are the library's door.
 DOORS = {

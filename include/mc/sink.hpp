@@ -26,13 +26,13 @@ struct SinkFormat;
 using SinkFormats = std::span<const SinkFormat* const>;
 
 struct SinkOptions {
-  std::string to;                ///< SinkFormat::name; empty: by extension
+  std::string to{};              ///< SinkFormat::name; empty: by extension
   bool force = false;            ///< replace an existing file; write binary to a terminal
   bool sync = false;             ///< finish() waits until data and names are on the disk
   bool ascii = false;            ///< PLY, STL: text form
   Progress* progress = nullptr;  ///< is told, as a detail, of what is spooled to $TMPDIR
   std::optional<Precision>
-      precision;  ///< PLY coordinates; unset: f32 unless it would move a vertex
+      precision{};  ///< PLY coordinates; unset: f32 unless it would move a vertex
   /// Facts written into the file (PLY/OBJ comments, glTF asset.extras), in order. Never time, host,
   /// path, threads, memory or SIMD target.
   std::vector<std::pair<std::string, std::string>> provenance{};
@@ -155,11 +155,5 @@ class OutputStream {
  private:
   std::unique_ptr<sink::OutputFile> file_;
 };
-
-/// Unlinks every partial file of this process, and puts back what several files that belong
-/// together were about to replace. For a process that is about to end: whoever then wants to make
-/// or rename an output waits for that end. Async-signal-safe enough for a signal thread: takes no
-/// lock that a blocked writer holds, and waits at most a tenth of a second for a blocked rename.
-void unlink_partials() noexcept;
 
 }  // namespace mc

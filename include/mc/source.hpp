@@ -69,33 +69,6 @@ struct Source {
 Source open_source(std::span<const std::string> inputs, const SourceOptions& options,
                    Progress& progress);
 
-/// Knows the files that its thread opens as inputs during its life. Watches of one thread nest: a
-/// file belongs to the innermost.
-class InputWatch {
- public:
-  InputWatch();
-  ~InputWatch();
-  InputWatch(const InputWatch&) = delete;
-  InputWatch& operator=(const InputWatch&) = delete;
-
-  /// Whether a file, open or closed by now, changed while it was open: what was made of it is not
-  /// to be kept then. Errors   input: changed, or became shorter.
-  void refuse_changed() const;
-
-  struct State;
-
- private:
-  std::unique_ptr<State> state_;
-};
-
-/// Does so for the innermost watch of this thread; nothing where there is none.
-void refuse_changed_inputs();
-
-/// For a handler of SIGBUS, which reading a mapped file raises once it has become shorter: where
-/// `address` lies in an input, zeros take the place of what is gone, and a watch will tell.
-/// Async-signal-safe. Returns whether it was an input.
-bool recover_input(const void* address) noexcept;
-
 /// One line of `mc info`: a grid that may or may not be meshable.
 struct GridDescription {
   Volume volume;

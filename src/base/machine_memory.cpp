@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "base/machine_memory.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -76,6 +78,17 @@ std::uint64_t resident_bytes() {
   std::uint64_t size = 0, resident = 0, of_files = 0;
   if (!(file >> size >> resident >> of_files)) return 0;
   return (resident - of_files) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string size_text(std::uint64_t n_bytes) {
+  static constexpr std::array<std::string_view, 5> kNames{"B", "KiB", "MiB", "GiB", "TiB"};
+  auto amount = static_cast<double>(n_bytes);
+  std::size_t unit = 0;
+  while (amount >= 1024 && unit + 1 < kNames.size()) {
+    amount /= 1024;
+    ++unit;
+  }
+  return unit == 0 ? fmt::format("{} B", n_bytes) : fmt::format("{:.1f} {}", amount, kNames[unit]);
 }
 
 }  // namespace mc::base

@@ -19,6 +19,9 @@ namespace mc::base {
 /// folder where the groups are mounted. No limit: all ones.
 [[nodiscard]] std::uint64_t group_limit_bytes(std::string_view groups, const std::string& root);
 
+/// "512 B", "40.0 MiB".
+[[nodiscard]] std::string size_text(std::uint64_t n_bytes);
+
 /// Bytes that are resident now, pages of files aside. 0 where the system does not say.
 [[nodiscard]] std::uint64_t resident_bytes();
 

@@ -104,7 +104,7 @@ std::vector<Option> run_options(CommonArgs& a, Text& memory) {
   };
 }
 
-std::vector<Option> surface_options(ExtractArgs& a) {
+std::vector<Option> surface_options(SurfaceArgs& a) {
   return {
       {"--iso", "V[,V...]", "value of the surface: numbers, otsu, or pNN for a percentile", true,
        &a.iso},
@@ -128,7 +128,7 @@ std::vector<Option> surface_options(ExtractArgs& a) {
   };
 }
 
-std::vector<Option> place_options(ExtractArgs& a) {
+std::vector<Option> frame_options(OutputArgs& a) {
   return {
       {"--frame", "FRAME", "source (default), ras or lps: convert to it, or declare it", false,
        &a.frame, "source ras lps"},
@@ -144,7 +144,7 @@ std::vector<Option> options_of(ExtractArgs& a) {
   std::vector<Option> all{
       {"-o,--output", "FILE", format_help().mesh_output, true, &a.output},
       {"--out-dir", "DIR", "batch: each input becomes a mesh of its own in DIR", true, &a.out_dir},
-      {"--to", "TYPE", format_help().mesh_to, true, &a.to, format_help().mesh_values},
+      {"--to", "TYPE", format_help().mesh_to, true, &a.out.to, format_help().mesh_values},
       {"--files-from", "FILE", "batch: inputs by name, one a line; - is stdin", false,
        &a.files_from},
       {"-0,--null", "", "batch: names of --files-from end in NUL, not in a line's end", false,
@@ -152,34 +152,35 @@ std::vector<Option> options_of(ExtractArgs& a) {
       {"--skip-existing", "", "batch: leave out inputs whose mesh is there", false,
        &a.skip_existing},
   };
-  append(all, surface_options(a));
+  append(all, surface_options(a.surface));
   append(all, source_options(a.source));
-  append(all, place_options(a));
-  append(
-      all,
-      {{"--ascii", "", format_help().ascii, false, &a.ascii},
-       {"--precision", "HOW", format_help().precision, false, &a.precision, "float double"},
-       {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.report},
-       {"--dry-run", "", "say what would be read, chosen and written, and stop", true, &a.dry_run},
-       {"--force", "", "replace an existing output; write binary to a terminal", true, &a.force},
-       {"--sync", "", "be done only when the output is on the disk", false, &a.sync},
-       {"--allow-empty", "", "a mesh without triangles is a success", false, &a.allow_empty},
-       {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
-        &a.no_skip}});
-  append(all, run_options(a.common, a.memory));
+  append(all, frame_options(a.out));
+  append(all,
+         {{"--ascii", "", format_help().ascii, false, &a.out.ascii},
+          {"--precision", "HOW", format_help().precision, false, &a.out.precision, "float double"},
+          {"--report", "FILE", "write what was done as JSON; - is stdout", true, &a.out.report},
+          {"--dry-run", "", "say what would be read, chosen and written, and stop", true,
+           &a.out.dry_run},
+          {"--force", "", "replace an existing output; write binary to a terminal", true,
+           &a.out.force},
+          {"--sync", "", "be done only when the output is on the disk", false, &a.out.sync},
+          {"--allow-empty", "", "a mesh without triangles is a success", false,
+           &a.surface.allow_empty},
+          {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
+           &a.surface.no_skip}});
+  append(all, run_options(a.common, a.out.memory));
   append(all, talk_options(a.common));
   return all;
 }
 
 std::vector<Option> options_of(EditArgs& a) {
-  ExtractArgs& m = a.mesh;
   std::vector<Option> all{
       {"--script", "FILE", "the edits, of format mc-edits; - is stdin, followed line by line", true,
        &a.script},
       {"-o,--output", "FILE", "a mesh or a volume, by its extension; may be repeated", true,
        &a.outputs},
       {"--to", "TYPE", "a type of mesh or volume, for stdout (default: by the extension)", true,
-       &m.to},
+       &a.out.to},
       {"--emit", "WHAT", "chunks: hand out those parts of the mesh that each record changed", true,
        &a.emit, "chunks"},
       {"--emit-at", "WHEN", "record (default), or write: only at write records and at the end",
@@ -190,25 +191,27 @@ std::vector<Option> options_of(EditArgs& a) {
        false, &a.chunk_cells, "8 16 32 64 128 256"},
       {"--journal", "FILE", "record the edits, each with hashes, as a script to replay", true,
        &a.journal},
-      {"--sync", "", "be done only when journal and outputs are on the disk", false, &m.sync},
+      {"--sync", "", "be done only when journal and outputs are on the disk", false, &a.out.sync},
       {"--undo", "N", "steps that can be taken back (default: all; live 256)", false, &a.undo},
       {"--keep-going", "", "pass over bad records; the status is 2 all the same", false,
        &a.keep_going},
   };
-  append(all, surface_options(m));
-  append(all, source_options(m.source));
-  append(all, place_options(m));
-  append(all,
-         {{"--ascii", "", format_help().ascii, false, &m.ascii},
-          {"--precision", "HOW", format_help().precision, false, &m.precision},
-          {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &m.report},
-          {"--dry-run", "", "say what each edit would touch, and stop", true, &m.dry_run},
-          {"--force", "", "replace existing outputs; write binary to a terminal", true, &m.force},
-          {"--allow-empty", "", "a mesh without triangles is a success", false, &m.allow_empty},
-          {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
-           &m.no_skip}});
-  append(all, run_options(m.common, m.memory));
-  append(all, talk_options(m.common));
+  append(all, surface_options(a.surface));
+  append(all, source_options(a.source));
+  append(all, frame_options(a.out));
+  append(
+      all,
+      {{"--ascii", "", format_help().ascii, false, &a.out.ascii},
+       {"--precision", "HOW", format_help().precision, false, &a.out.precision},
+       {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &a.out.report},
+       {"--dry-run", "", "say what each edit would touch, and stop", true, &a.out.dry_run},
+       {"--force", "", "replace existing outputs; write binary to a terminal", true, &a.out.force},
+       {"--allow-empty", "", "a mesh without triangles is a success", false,
+        &a.surface.allow_empty},
+       {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
+        &a.surface.no_skip}});
+  append(all, run_options(a.common, a.out.memory));
+  append(all, talk_options(a.common));
   return all;
 }
 

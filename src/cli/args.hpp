@@ -30,23 +30,38 @@ struct CommonArgs {
   std::vector<std::string> typed;  ///< the command's words as they were typed, for messages
 };
 
-struct ExtractArgs {
-  SourceArgs source;
-  CommonArgs common;
-  Text output, out_dir, to, files_from;
-  bool files_end_in_nul = false, skip_existing = false;
+/// Which surface is made, and how.
+struct SurfaceArgs {
   Text iso, inside, region, border;
   bool invert = false;
   Text interpolation, cutoff, min_edge, topology, normals;
+  bool allow_empty = false, no_skip = false;
+};
+
+/// How meshes and volumes are written, whichever they are.
+struct OutputArgs {
+  Text to;
   Text frame, up, units;
   bool ascii = false;
   Text precision;
   Text memory, report;
-  bool dry_run = false, force = false, sync = false, allow_empty = false, no_skip = false;
+  bool dry_run = false, force = false, sync = false;
+};
+
+struct ExtractArgs {
+  SourceArgs source;
+  CommonArgs common;
+  SurfaceArgs surface;
+  OutputArgs out;
+  Text output, out_dir, files_from;
+  bool files_end_in_nul = false, skip_existing = false;
 };
 
 struct EditArgs {
-  ExtractArgs mesh;  ///< input, surface and how it is written; its output is not used
+  SourceArgs source;
+  CommonArgs common;
+  SurfaceArgs surface;
+  OutputArgs out;
   Texts outputs;
   Text script, emit, emit_at, chunk_dir, chunk_cells, journal, undo;
   bool keep_going = false;

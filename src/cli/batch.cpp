@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/batch.hpp"
+#include "base/machine_memory.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,9 +12,11 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "cli/extract_job.hpp"
 #include "cli/peak_memory.hpp"
+#include "cli/report.hpp"
+#include "cli/summary.hpp"
 #include "cli/values.hpp"
+#include "mc/convert.hpp"
 
 // Starting and joining threads costs more than a small file does: such files take turns on the
 // threads, and only runs of larger ones are spread over all threads.
@@ -33,14 +36,30 @@ bool exists(const std::string& path) {
   return ::lstat(path.c_str(), &status) == 0;
 }
 
+/// Converts one volume, or with --dry-run says what that would do.
+void run_job(const ExtractPlan& plan, const Job& job, Invocation& invocation, RunReport& report) {
+  ConvertOptions options = plan.convert;
+  if (plan.common.verbose) {
+    options.on_memory_need = [&](const MemoryNeed& need) {
+      invocation.console.detail(fmt::format("memory: {}", memory_text(need)));
+    };
+  }
+  convert(job.inputs, job.output, options, invocation.console, invocation.stop.get_token(),
+          report.done);
+  if (options.dry_run && plan.report != "-") {
+    print_out(dry_run_text(report.done, job.output, options.extract.region));
+  }
+}
+
 /// Whatever becomes of a job, its report is complete and its failure told.
 void run_reported(const ExtractPlan& plan, const Job& job, Invocation& invocation,
                   RunReport& report) {
+  report.output = job.output;
   if (plan.skip_existing && exists(job.output)) {
-    report.input = job.inputs.front();
-    report.output = job.output;
+    report.done.input = job.inputs.front();
     report.skipped = true;
-    invocation.console.detail(fmt::format("{}: left out, {} is there", report.input, job.output));
+    invocation.console.detail(
+        fmt::format("{}: left out, {} is there", job.inputs.front(), job.output));
     return;
   }
   const auto failure = attempt([&] { run_job(plan, job, invocation, report); });
@@ -84,8 +103,10 @@ class Batch {
         ++first;
       }
     }
+    summarise();
     if (peak_) {
-      invocation_.console.detail(fmt::format("memory: {} at its peak", size_text(peak_->bytes())));
+      invocation_.console.detail(
+          fmt::format("memory: {} at its peak", base::size_text(peak_->bytes())));
     }
   }
   [[nodiscard]] int status() const { return status_; }
@@ -102,7 +123,7 @@ class Batch {
   void run_at_once(std::span<const Job> jobs) {
     ExtractPlan shared = plan_;
     shared.jobs.clear();
-    shared.memory_bytes /= base::pipeline_slots();
+    shared.convert.memory_bytes /= base::pipeline_slots();
     std::vector<Outcome> outcomes(base::pipeline_slots());
     invocation_.console.begin("batch", jobs.size(), "files");
     const std::array<base::Step, 2> steps{{
@@ -142,7 +163,26 @@ class Batch {
     invocation_.console.advance(1);
   }
 
+  /// Only of a success, or of a batch.
+  void summarise() {
+    if (!invocation_.console.shows_summary() || plan_.convert.dry_run || stopped()) return;
+    if (plan_.batch) {
+      invocation_.console.note(summary_.text(plan_.out_dir));
+    } else if (status_ == 0) {
+      invocation_.console.note(summary_.text(output_names({&plan_.jobs.front().output, 1})));
+    }
+  }
+
+  void add_to_summary(const RunReport& report) {
+    const bool written = report.status == 0 && !report.skipped;
+    if (plan_.batch) summary_.add_input(written);
+    if (!written || plan_.convert.dry_run) return;
+    summary_.add_file(*report.output);
+    summary_.add_mesh(report.done.totals);
+  }
+
   void add(RunReport& report) {
+    add_to_summary(report);
     if (peak_) report.peak_bytes = peak_->bytes();
     file_.add_line(to_json(report));
     if (status_ == 0) status_ = report.status;
@@ -152,6 +192,7 @@ class Batch {
   Invocation& invocation_;
   ReportFile& file_;
   std::optional<PeakMemory> peak_;
+  Summary summary_;
   int status_ = 0;
 };
 

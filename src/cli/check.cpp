@@ -5,6 +5,7 @@
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
 #include "cli/report.hpp"
+#include "mc/host.hpp"
 #include "mc/source.hpp"
 
 // `mc check`: counts what is wrong with meshes.

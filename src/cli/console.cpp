@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "cli/remedy.hpp"
+
 // Progress is drawn ten times a second at most, by whichever thread comes past first.
 
 namespace mc::cli {
@@ -96,6 +98,8 @@ void Console::note(std::string_view text) {
   if (!quiet_) print_line(fmt::format("mc: {}", text));
 }
 
+void Console::note_remedy(std::string_view text, Remedy remedy) { note(with_remedy(text, remedy)); }
+
 void Console::warn(std::string_view text) {
   const std::lock_guard lock(mutex_);
   warnings_.emplace_back(text);
@@ -105,6 +109,11 @@ void Console::warn(std::string_view text) {
 void Console::detail(std::string_view text) {
   const std::lock_guard lock(mutex_);
   if (verbose_) print_line(fmt::format("mc: {}", text));
+}
+
+bool Console::shows_summary() {
+  const std::lock_guard lock(mutex_);
+  return !quiet_ && !keeps_lines_ && isatty(STDERR_FILENO) == 1;
 }
 
 void Console::error(std::string_view text) {

@@ -27,11 +27,14 @@ class Console final : public Progress {
   void begin(std::string_view stage, std::uint64_t total, std::string_view unit) override;
   void advance(std::uint64_t done) override;
   void note(std::string_view text) override;
+  void note_remedy(std::string_view text, Remedy remedy) override;
   void warn(std::string_view text) override;
   /// What only -v shows.
   void detail(std::string_view text) override;
 
   void error(std::string_view text);
+  /// Whether a summary is wanted at the end: on a terminal, without -q.
+  [[nodiscard]] bool shows_summary();
   /// Removes the progress bar.
   void end_stage() override;
 

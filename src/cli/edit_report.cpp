@@ -5,8 +5,7 @@
 
 #include <utility>
 
-#include "cli/report.hpp"
-#include "cli/surface_choice.hpp"
+#include "mc/convert.hpp"
 
 // Keys keep their order; what is unknown is null.
 
@@ -76,23 +75,24 @@ std::string to_json(const RecordReport& report) {
   return one_line(json);
 }
 
-std::string to_json(const EditTotals& totals) {
+std::string to_json(const EditRunReport& report) {
+  const ScriptReport& done = report.done;
   Json json;
   json["mc"] = MC_VERSION;
-  json["status"] = totals.status;
-  json["error"] = totals.error ? Json(*totals.error) : Json();
-  json["input"] = totals.input;
-  json["space"] = totals.index_space ? "index" : "world";
-  json["iso"] = totals.iso;
-  json["inside"] = name_of(totals.inside);
-  json["records"] = totals.n_records;
-  json["edits"] = totals.n_edits;
-  json["outside"] = totals.n_outside;
-  json["changed"] = totals.n_changed;
-  json["stored_blocks"] = totals.n_stored_blocks;
-  json["stored_bytes"] = totals.stored_bytes;
-  json["peak_bytes"] = totals.peak_bytes;
-  json["warnings"] = totals.warnings;
+  json["status"] = report.status;
+  json["error"] = report.error ? Json(*report.error) : Json();
+  json["input"] = done.input;
+  json["space"] = done.index_space ? "index" : "world";
+  json["iso"] = done.iso;
+  json["inside"] = name_of(done.inside);
+  json["records"] = done.n_records;
+  json["edits"] = done.n_edits;
+  json["outside"] = done.n_outside;
+  json["changed"] = done.n_changed;
+  json["stored_blocks"] = done.n_stored_blocks;
+  json["stored_bytes"] = done.stored_bytes;
+  json["peak_bytes"] = report.peak_bytes;
+  json["warnings"] = report.warnings;
   return one_line(json);
 }
 

@@ -24,11 +24,11 @@ int report_usage(const ExtractArgs& args, Invocation& invocation, const Failure&
   report.status = show(invocation.console, failure);
   report.error = fmt::format("{}", fmt::join(failure.lines, "\n"));
   report.peak_bytes = base::resident_bytes();
-  if (!args.source.inputs.empty()) report.input = args.source.inputs.front();
+  if (!args.source.inputs.empty()) report.done.input = args.source.inputs.front();
   report.output = args.output;
-  const bool clash = args.report && args.report == args.output;
-  if (args.report && !args.report->empty() && !clash) {
-    ReportFile file(args.report, invocation.stop.get_token());
+  const bool clash = args.out.report && args.out.report == args.output;
+  if (args.out.report && !args.out.report->empty() && !clash) {
+    ReportFile file(args.out.report, invocation.stop.get_token());
     file.add_line(to_json(report));
     file.finish();
   }

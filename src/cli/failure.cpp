@@ -9,8 +9,7 @@
 #include <system_error>
 
 #include "cli/remedy.hpp"
-#include "mc/base.hpp"
-#include "mc/source.hpp"
+#include "mc/host.hpp"
 
 namespace mc::cli {
 

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "source/formats.hpp"
 
 namespace mc::cli {
@@ -20,9 +18,5 @@ Names volume_names() {
 }
 
 std::string joined(const Names& names) { return fmt::format("{}", fmt::join(names, " ")); }
-
-const SinkFormat& chunk_format() {
-  return **std::ranges::find_if(sink_formats(), [](const SinkFormat* f) { return f->to_memory; });
-}
 
 }  // namespace mc::cli

@@ -30,7 +30,4 @@ Names volume_names();
 /// "a b c".
 std::string joined(const Names& names);
 
-/// What the chunks of an edited surface are written as.
-const SinkFormat& chunk_format();
-
 }  // namespace mc::cli

@@ -14,13 +14,12 @@
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
-#include "cli/placement.hpp"
 #include "cli/report.hpp"
 #include "cli/resolve.hpp"
-#include "cli/surface_choice.hpp"
 #include "cli/values.hpp"
-#include "mc/pipe.hpp"
-#include "mc/sink.hpp"
+#include "convert/output_frame.hpp"
+#include "mc/convert.hpp"
+#include "mc/host.hpp"
 
 // `mc info`: what an input holds, and what extract would do with it.
 
@@ -65,17 +64,18 @@ Formatted any_binary(bool f32_moves) {
 }
 
 /// Of a mesh at the suggested iso by mc-extract(1), in any binary format.
-MemoryNeed estimate(const VolumeReader& reader, double iso, bool streamed, const Wish& wish,
-                    Invocation& invocation) {
+MemoryNeed estimate(const VolumeReader& reader, const Surface& surface, bool streamed,
+                    const Wish& wish, Invocation& invocation) {
   const Volume& volume = volume_of(reader);
   RunOptions options;
-  options.extract.iso = iso;
-  options.extract.inside = choose_inside({}, false, volume);
-  options.extract.border = choose_border({}, volume);
+  options.extract.iso = surface.isos.front().value;
+  options.extract.inside = surface.inside;
+  options.extract.border = surface.border;
   options.extract.normals = Normals::gradient;
   options.memory_bytes = wish.memory_bytes;
   const Lattice& lattice = volume.lattice;
-  const bool f32_moves = rounding_loss(lattice.box, lattice.to_world, Precision::f32).matters;
+  const bool f32_moves =
+      conversion::rounding_loss(lattice.box, lattice.to_world, Precision::f32).matters;
   options.extract.precision = f32_moves ? Precision::f64 : Precision::f32;
   options.formatted = any_binary(f32_moves);
   return memory_counted(reader, options, invocation.stop.get_token(), streamed);
@@ -89,11 +89,12 @@ void measure_grid(VolumeReader reader, bool piped, const Wish& wish, GridInfo& g
   grid.statistics = measure_field(reader, kInfoPercentiles, invocation.console,
                                   invocation.stop.get_token(), wish.memory_bytes);
   invocation.console.end_stage();
-  const Iso iso = default_iso(volume, &*grid.statistics);
+  const Surface surface = default_surface(volume, &*grid.statistics);
+  const Iso& iso = surface.isos.front();
   grid.iso = iso.value;
   grid.iso_reason = iso.reason;
   if (!wish.memory_estimate || !std::isfinite(iso.value)) return;
-  grid.memory = estimate(reader, iso.value, streamed_by_extract, wish, invocation);
+  grid.memory = estimate(reader, surface, streamed_by_extract, wish, invocation);
 }
 
 /// A FIFO, or what a shell puts in place of <(command): it gives its bytes once.
@@ -153,14 +154,15 @@ std::string value_lines(const GridInfo& grid) {
   const FieldStatistics& s = *grid.statistics;
   const SampleType type = grid.description.volume.type;
   std::string text;
-  text += fmt::format("  range        {} to {}\n", iso_text(s.min, type), iso_text(s.max, type));
+  text +=
+      fmt::format("  range        {} to {}\n", value_text(s.min, type), value_text(s.max, type));
   if (s.n_nan > 0) text += fmt::format("  nan          {} of {}\n", s.n_nan, s.n_samples);
   if (s.n_infinite > 0) text += fmt::format("  infinite     {} of {}\n", s.n_infinite, s.n_samples);
   text += "  percentiles ";
   for (std::size_t n = 0; n < s.percentiles.size(); ++n) {
-    text += fmt::format(" p{} {}", kInfoPercentiles[n], iso_text(s.percentiles[n], type));
+    text += fmt::format(" p{} {}", kInfoPercentiles[n], value_text(s.percentiles[n], type));
   }
-  text += fmt::format("\n  iso          {} ({})\n", iso_text(grid.iso, type), grid.iso_reason);
+  text += fmt::format("\n  iso          {} ({})\n", value_text(grid.iso, type), grid.iso_reason);
   if (grid.memory) text += fmt::format("  memory       {}\n", memory_text(*grid.memory));
   return text;
 }

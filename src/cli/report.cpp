@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/report.hpp"
+#include "base/machine_memory.hpp"
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ Json dims_json(const IndexBox& box) {
   return Json::array({box.extent(0), box.extent(1), box.extent(2)});
 }
 
-Json input_json(const RunReport& report) {
+Json input_json(const ConvertReport& report) {
   Json input;
   input["place"] = report.input;
   const auto volume_text = [&](auto text) {
@@ -47,7 +48,7 @@ Json input_json(const RunReport& report) {
   input["grid"] = volume_text([](const Volume& v) { return v.name; });
   input["type"] = volume_text([](const Volume& v) { return std::string(sample_name(v.type)); });
   input["class"] = volume_text([](const Volume& v) { return std::string(name_of(v.cls)); });
-  const auto& at = report.placement;
+  const auto& at = report.frame;
   input["frame"] = at ? Json(name_of(at->source_frame)) : Json();
   input["up"] = at && at->source_frame == Frame::none ? Json(name_of(at->source_up)) : Json();
   input["units"] = at ? Json(name_of(at->source_units)) : Json();
@@ -82,9 +83,9 @@ void add_totals(Json& json, const std::vector<MeshTotals>& totals) {
   json["bounds"] = bounds_json(sum.bounds);
 }
 
-Json stages_json(const std::vector<Stage>& stages) {
+Json stages_json(const std::vector<StageTime>& stages) {
   Json all = Json::array();
-  for (const Stage& stage : stages) {
+  for (const StageTime& stage : stages) {
     all.push_back(
         {{"name", stage.name}, {"seconds", stage.seconds}, {"bytes", or_null(stage.n_bytes)}});
   }
@@ -143,20 +144,23 @@ Json grid_json(const GridInfo& grid) {
 }  // namespace
 
 std::string to_json(const RunReport& report) {
+  const ConvertReport& done = report.done;
   Json json;
   json["mc"] = MC_VERSION;
   json["status"] = report.status;
   json["error"] = or_null(report.error);
   if (report.skipped) json["skipped"] = true;
-  json["input"] = input_json(report);
+  json["input"] = input_json(done);
   json["output"] = or_null(report.output);
-  json["iso"] = report.isos;
-  json["inside"] =
-      report.inside ? Json(*report.inside == Inside::above ? "above" : "below") : Json();
-  json["dims"] = report.volume ? dims_json(report.volume->lattice.box) : Json();
-  json["affine"] = report.placement ? Json(report.placement->to_world.m) : Json();
-  add_totals(json, report.totals);
-  json["stages"] = stages_json(report.stages);
+  json["iso"] = Json::array();
+  if (done.surface) {
+    for (const Iso& iso : done.surface->isos) json["iso"].push_back(iso.value);
+  }
+  json["inside"] = done.surface ? Json(name_of(done.surface->inside)) : Json();
+  json["dims"] = done.volume ? dims_json(done.volume->lattice.box) : Json();
+  json["affine"] = done.frame ? Json(done.frame->to_world.m) : Json();
+  add_totals(json, done.totals);
+  json["stages"] = stages_json(done.stages);
   json["peak_bytes"] = report.peak_bytes;
   json["warnings"] = report.warnings;
   return one_line(json);
@@ -217,8 +221,29 @@ const char* name_of(VolumeClass cls) {
 }
 
 std::string memory_text(const MemoryNeed& need) {
-  return fmt::format("{} expected, {} at most, of {}; {} would do", size_text(need.expected),
-                     size_text(need.most), size_text(need.budget), size_text(need.least));
+  return fmt::format("{} expected, {} at most, of {}; {} would do", base::size_text(need.expected),
+                     base::size_text(need.most), base::size_text(need.budget),
+                     base::size_text(need.least));
+}
+
+std::string dry_run_text(const ConvertReport& report, const std::string& output,
+                         const std::optional<IndexBox>& region) {
+  const Volume& v = *report.volume;
+  const IndexBox box = region.value_or(v.lattice.box);
+  std::string text = fmt::format("input    {}\n", report.input);
+  text += fmt::format("format   {}{}{}\n", v.format, v.name.empty() ? "" : ", grid ", v.name);
+  text += fmt::format("samples  {} x {} x {} {}, {}\n", box.extent(0), box.extent(1), box.extent(2),
+                      sample_name(v.type), base::size_text(*report.stages.back().n_bytes));
+  for (const Iso& iso : report.surface->isos) {
+    text += fmt::format("iso      {}{}\n", value_text(iso.value, v.type),
+                        iso.reason.empty() ? "" : fmt::format(" ({})", iso.reason));
+  }
+  text += fmt::format("inside   {}\n", name_of(report.surface->inside));
+  text += fmt::format("border   {}\n", name_of(report.surface->border));
+  text += fmt::format("frame    {}, units {}\n", name_of(report.frame->source_frame),
+                      name_of(report.frame->units));
+  text += fmt::format("memory   {}\n", memory_text(*report.memory));
+  return text + fmt::format("output   {} ({})\n", output, report.format);
 }
 
 }  // namespace mc::cli

@@ -6,38 +6,21 @@
 #include <string>
 #include <vector>
 
-#include "cli/placement.hpp"
-#include "mc/extract.hpp"
-#include "mc/field.hpp"
-#include "mc/mesh.hpp"
-#include "mc/pipe.hpp"
-#include "mc/source.hpp"
+#include "mc/convert.hpp"
 
 // What the program says in JSON: `--report`, `info --json`, `check --json`. Each is one line. Keys
 // are CLI.md's; what is unknown is null.
 
 namespace mc::cli {
 
-struct Stage {
-  std::string name;
-  double seconds = 0;
-  std::optional<std::uint64_t> n_bytes;  ///< read or written by it
-};
-
 /// How an extraction went, filled in as far as it came.
 struct RunReport {
   int status = 0;
   bool skipped = false;  ///< by --skip-existing
   std::optional<std::string> error;
-  std::string input;
-  std::optional<Volume> volume;
-  std::optional<Placement> placement;
   std::optional<std::string> output;
-  std::vector<double> isos;
-  std::optional<Inside> inside;
-  std::vector<MeshTotals> totals;  ///< one an iso
-  std::vector<Stage> stages;
-  std::uint64_t peak_bytes = 0;  ///< most that the process has held, pages of mapped files aside
+  ConvertReport done;
+  std::uint64_t peak_bytes = 0;  ///< maximum that the process held, pages of mapped files aside
   std::vector<std::string> warnings;
 };
 
@@ -68,5 +51,9 @@ const char* name_of(VolumeClass cls);
 
 /// "40.0 MiB expected, 512.0 MiB at most, of 1.0 GiB; 13.0 MiB would do".
 std::string memory_text(const MemoryNeed& need);
+
+/// What --dry-run prints.
+std::string dry_run_text(const ConvertReport& report, const std::string& output,
+                         const std::optional<IndexBox>& region);
 
 }  // namespace mc::cli

@@ -86,30 +86,38 @@ IsoChoice parse_iso(std::string_view text) {
   return {IsoChoice::Kind::number, parse_number("--iso", text)};
 }
 
-const SinkFormat& format_of(const ExtractPlan& plan) { return *find_sink_format(plan.format); }
-
-void resolve_surface(const ExtractArgs& args, ExtractPlan& plan) {
+SurfaceChoice resolve_surface(const SurfaceArgs& args, const SinkFormat& format) {
+  SurfaceChoice choice;
   if (args.iso) {
-    for (const std::string_view part : split(*args.iso, ',')) plan.isos.push_back(parse_iso(part));
+    for (const std::string_view part : split(*args.iso, ',')) {
+      choice.isos.push_back(parse_iso(part));
+    }
   }
-  if (plan.isos.size() > 1 && !format_of(plan).several_objects) {
-    refuse("--iso",
-           fmt::format("{} values, but {} holds one object a file", plan.isos.size(), plan.format),
-           fmt::format("choose {}, or extract them one by one",
-                       base::enumerate(sink::several_object_names())));
+  if (choice.isos.size() > 1 && !format.several_objects) {
+    refuse(
+        "--iso",
+        fmt::format("{} values, but {} holds one object a file", choice.isos.size(), format.name),
+        fmt::format("choose {}, or extract them one by one",
+                    base::enumerate(sink::several_object_names())));
   }
   if (args.inside) {
     static constexpr std::array<std::pair<std::string_view, std::optional<Inside>>, 3> kSides{
         {{"above", Inside::above}, {"below", Inside::below}, {"auto", std::nullopt}}};
-    plan.inside = parse_choice("--inside", *args.inside, kSides);
+    choice.inside = parse_choice("--inside", *args.inside, kSides);
   }
-  plan.invert = args.invert;
+  choice.invert = args.invert;
   if (args.border) {
     static constexpr std::array<std::pair<std::string_view, Border>, 2> kBorders{
         {{"open", Border::open}, {"closed", Border::closed}}};
-    plan.border = parse_choice("--border", *args.border, kBorders);
+    choice.border = parse_choice("--border", *args.border, kBorders);
   }
-  if (args.region) plan.extract.region = parse_region("--region", *args.region);
+  return choice;
+}
+
+/// Region, and where vertices lie on their edges.
+ExtractOptions resolve_extraction(const SurfaceArgs& args) {
+  ExtractOptions extract;
+  if (args.region) extract.region = parse_region("--region", *args.region);
   if (args.topology && *args.topology == "trilinear") {
     refuse("--topology", "trilinear is unknown to this version: expected faces");
   }
@@ -117,9 +125,6 @@ void resolve_surface(const ExtractArgs& args, ExtractPlan& plan) {
     static constexpr std::array<std::pair<std::string_view, int>, 1> kRules{{{"faces", 0}}};
     parse_choice("--topology", *args.topology, kRules);
   }
-}
-
-void resolve_edges(const ExtractArgs& args, ExtractOptions& extract) {
   if (args.interpolation) {
     static constexpr std::array<std::pair<std::string_view, Interpolation>, 2> kHow{
         {{"linear", Interpolation::linear}, {"midpoint", Interpolation::midpoint}}};
@@ -134,59 +139,63 @@ void resolve_edges(const ExtractArgs& args, ExtractOptions& extract) {
   if (midpoint && args.min_edge) {
     refuse("--min-edge", "means nothing with --interpolation midpoint");
   }
+  return extract;
 }
 
-void resolve_normals(const ExtractArgs& args, ExtractPlan& plan) {
-  const bool holds_normals = format_of(plan).has_normals;
-  plan.extract.normals = holds_normals ? Normals::gradient : Normals::none;
-  if (!args.normals) return;
-  plan.extract.normals = parse_normals(*args.normals);
-  if (!holds_normals && plan.extract.normals != Normals::none) {
+std::optional<Normals> resolve_normals(const SurfaceArgs& args, const SinkFormat& format) {
+  if (!args.normals) return std::nullopt;
+  const Normals normals = parse_normals(*args.normals);
+  if (!format.has_normals && normals != Normals::none) {
     const Names others =
         sink_names([](const SinkFormat& f) { return f.open_mesh != nullptr && f.has_normals; });
     refuse("--normals",
-           fmt::format("{} holds no vertex normals, only those of its facets", plan.format),
+           fmt::format("{} holds no vertex normals, only those of its facets", format.name),
            fmt::format("choose {}", base::enumerate(others)));
   }
+  return normals;
 }
 
-void resolve_place(const ExtractArgs& args, PlaceChoice& place) {
+FrameChoice resolve_frame(const OutputArgs& args) {
+  FrameChoice choice;
   if (args.frame) {
     static constexpr std::array<std::pair<std::string_view, std::optional<Frame>>, 3> kFrames{
         {{"source", std::nullopt}, {"ras", Frame::ras}, {"lps", Frame::lps}}};
-    place.frame = parse_choice("--frame", *args.frame, kFrames);
+    choice.frame = parse_choice("--frame", *args.frame, kFrames);
   }
   if (args.up) {
     static constexpr std::array<std::pair<std::string_view, Up>, 2> kAxes{
         {{"y", Up::y}, {"z", Up::z}}};
-    place.up = parse_choice("--up", *args.up, kAxes);
+    choice.up = parse_choice("--up", *args.up, kAxes);
   }
-  if (place.frame && place.up) {
+  if (choice.frame && choice.up) {
     refuse("--up", "is for sources without a frame, but --frame gives one");
   }
   if (args.units) {
     static constexpr std::array<std::pair<std::string_view, Units>, 2> kUnits{
         {{"mm", Units::mm}, {"m", Units::m}}};
-    place.units = parse_choice("--units", *args.units, kUnits);
+    choice.units = parse_choice("--units", *args.units, kUnits);
   }
+  return choice;
 }
 
-void resolve_form(const ExtractArgs& args, ExtractPlan& plan) {
-  if (args.ascii && format_of(plan).text != TextForm::optional) {
+SinkOptions resolve_sink(const OutputArgs& args, const SinkFormat& format) {
+  if (args.ascii && format.text != TextForm::optional) {
     const Names with = sink_names([](const SinkFormat& f) { return f.text == TextForm::optional; });
-    refuse("--ascii", fmt::format("is for {}, not {}", base::enumerate(with, "and"), plan.format));
+    refuse("--ascii", fmt::format("is for {}, not {}", base::enumerate(with, "and"), format.name));
   }
-  if (args.precision && !format_of(plan).precision) {
+  if (args.precision && !format.precision) {
     const Names with = sink_names([](const SinkFormat& f) { return f.precision; });
     refuse("--precision",
-           fmt::format("is for {}, not {}", base::enumerate(with, "and"), plan.format));
+           fmt::format("is for {}, not {}", base::enumerate(with, "and"), format.name));
   }
-  plan.sink.ascii = args.ascii;
+  SinkOptions sink{
+      .to = std::string(format.name), .force = args.force, .sync = args.sync, .ascii = args.ascii};
   if (args.precision) {
     static constexpr std::array<std::pair<std::string_view, Precision>, 2> kHow{
         {{"float", Precision::f32}, {"double", Precision::f64}}};
-    plan.sink.precision = parse_choice("--precision", *args.precision, kHow);
+    sink.precision = parse_choice("--precision", *args.precision, kHow);
   }
+  return sink;
 }
 
 /// DIR/stem.TO for every input, each name once.
@@ -218,8 +227,21 @@ void check_batch(const ExtractArgs& args) {
   if (args.files_end_in_nul && !args.files_from) {
     refuse("--null", "is for --files-from: expected a FILE of names with it");
   }
-  if (args.skip_existing && args.force) {
+  if (args.skip_existing && args.out.force) {
     refuse("--skip-existing", "contradicts --force", "give one of them");
+  }
+}
+
+void check_report(const ExtractArgs& args, const Job& job) {
+  const Text& report = args.out.report;
+  if (!report) return;
+  if (*report != "-" && std::ranges::find(job.inputs, *report) != job.inputs.end()) {
+    refuse("--report", "names the input itself", "give another FILE");
+  }
+  if (report == job.output && !args.out.dry_run) {
+    refuse("--report",
+           job.output == "-" ? "cannot go to stdout with --output -" : "names the output itself",
+           "give another FILE");
   }
 }
 
@@ -227,47 +249,35 @@ void resolve_output(const ExtractArgs& args, const std::vector<std::string>& inp
                     ExtractPlan& plan) {
   check_output_name(args.output);
   if (args.output && args.out_dir) refuse("--out-dir", "contradicts --output", "give one of them");
-  plan.sink.force = args.force;
-  plan.sink.sync = args.sync;
-  plan.sink.to = args.to.value_or("");
   plan.batch = args.out_dir.has_value();
-  if (plan.batch && args.out_dir->empty()) refuse("--out-dir", "the folder's name is empty");
+  plan.out_dir = args.out_dir.value_or("");
+  if (plan.batch && plan.out_dir.empty()) refuse("--out-dir", "the folder's name is empty");
   const std::string usual(usual_mesh_format().name);
-  if (plan.batch && !args.to) plan.sink.to = usual;
   if (!plan.batch && !args.output) {
-    refuse_missing_output("extract", args.common, inputs, "." + args.to.value_or(usual));
+    refuse_missing_output("extract", args.common, inputs, "." + args.out.to.value_or(usual));
   }
-  const SinkFormat& format = output_format(plan.batch ? "" : *args.output, plan.sink);
+  SinkOptions named;
+  named.to = args.out.to.value_or(plan.batch ? usual : "");
+  const SinkFormat& format = output_format(plan.batch ? "" : *args.output, named);
   plan.format = format.name;
   if (format.open_mesh == nullptr) {
     refuse(
-        args.to ? "--to" : *args.output,
+        args.out.to ? "--to" : *args.output,
         fmt::format("{} holds a volume: expected {}", format.name, base::enumerate(mesh_names())),
         "use mc sample to write volumes");
   }
-  plan.sink.to = plan.format;
   if (plan.batch) {
     plan.jobs = batch_jobs(args, inputs, plan.format);
   } else {
     plan.jobs = {{inputs, *args.output}};
   }
   for (const Job& job : plan.jobs) {
-    if (!format.one_file && is_stream(job.output)) {
-      refuse(job.output,
-             fmt::format("{} is two files and cannot be written to a stream", format.display),
-             fmt::format("use --to {}", usual));
-    }
-    if (args.report && std::ranges::find(job.inputs, *args.report) != job.inputs.end() &&
-        *args.report != "-") {
-      refuse("--report", "names the input itself", "give another FILE");
-    }
-    if (args.report && *args.report == job.output && !args.dry_run) {
-      refuse("--report",
-             job.output == "-" ? "cannot go to stdout with --output -" : "names the output itself",
-             "give another FILE");
-    }
+    check_streamable(job.output, format);
+    check_report(args, job);
   }
-  if (args.report && args.report->empty()) refuse("--report", "the report's name is empty");
+  if (args.out.report && args.out.report->empty()) {
+    refuse("--report", "the report's name is empty");
+  }
 }
 
 /// "z=0", "k=3".
@@ -335,6 +345,38 @@ std::uint64_t resolve_memory(const std::optional<std::string>& text) {
   return text ? parse_size("--memory", *text) : base::default_budget_bytes();
 }
 
+ConvertOptions resolve_conversion(const SourceArgs& source, const SurfaceArgs& surface,
+                                  const OutputArgs& out, const SinkFormat& format) {
+  ConvertOptions options;
+  options.source = resolve_source(source);
+  options.surface = resolve_surface(surface, format);
+  options.extract = resolve_extraction(surface);
+  options.normals = resolve_normals(surface, format);
+  options.frame = resolve_frame(out);
+  options.sink = resolve_sink(out, format);
+  options.memory_bytes = resolve_memory(out.memory);
+  options.extract.measure = out.report.has_value();
+  options.dry_run = out.dry_run;
+  options.allow_empty = surface.allow_empty;
+  options.skip = !surface.no_skip;
+  return options;
+}
+
+VolumeOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
+                             const SinkFormat& format) {
+  VolumeOptions options;
+  options.sink = {.to = std::string(format.name), .force = force, .sync = sync};
+  if (region) options.region = parse_region("--region", *region);
+  options.memory_bytes = resolve_memory(memory);
+  return options;
+}
+
+void check_streamable(const std::string& output, const SinkFormat& format) {
+  if (format.one_file || !is_stream(output)) return;
+  refuse(output, fmt::format("{} is two files and cannot be written to a stream", format.display),
+         fmt::format("use --to {}", usual_mesh_format().name));
+}
+
 ExtractPlan resolve(const ExtractArgs& args) {
   ExtractPlan plan;
   check_batch(args);
@@ -343,19 +385,11 @@ ExtractPlan resolve(const ExtractArgs& args) {
   check_inputs("extract", inputs);
   plan.skip_existing = args.skip_existing;
   plan.common = resolve_common(args.common);
-  plan.source = resolve_source(args.source);
+  resolve_source(args.source);  // its errors come before those of the output
   resolve_output(args, inputs, plan);
-  resolve_surface(args, plan);
-  resolve_edges(args, plan.extract);
-  resolve_normals(args, plan);
-  resolve_place(args, plan.place);
-  resolve_form(args, plan);
-  plan.memory_bytes = resolve_memory(args.memory);
-  plan.report = args.report;
-  plan.dry_run = args.dry_run;
-  plan.allow_empty = args.allow_empty;
-  plan.skip = !args.no_skip;
-  plan.extract.measure = args.report.has_value();
+  plan.convert =
+      resolve_conversion(args.source, args.surface, args.out, *find_sink_format(plan.format));
+  plan.report = args.out.report;
   return plan;
 }
 
@@ -369,22 +403,19 @@ SamplePlan resolve(const SampleArgs& args) {
     refuse_missing_output("sample", args.common, args.source.inputs,
                           "." + args.to.value_or(std::string(usual_volume_format().name)));
   }
-  plan.sink.force = args.force;
-  plan.sink.sync = args.sync;
-  plan.sink.to = args.to.value_or("");
-  const SinkFormat& format = output_format(*args.output, plan.sink);
-  plan.format = format.name;
+  SinkOptions named;
+  named.to = args.to.value_or("");
+  const SinkFormat& format = output_format(*args.output, named);
   if (format.open_mesh != nullptr) {
     refuse(
         args.to ? "--to" : *args.output,
         fmt::format("{} holds a mesh: expected {}", format.name, base::enumerate(volume_names())),
         "use mc extract to write meshes");
   }
-  plan.sink.to = plan.format;
   plan.job = {args.source.inputs, *args.output};
-  if (args.region) plan.region = parse_region("--region", *args.region);
   plan.slice = resolve_slice(args, format);
-  plan.memory_bytes = resolve_memory(args.memory);
+  plan.volume = resolve_volume(args.region, args.memory, args.force, args.sync, format);
+  plan.source.memory_bytes = plan.volume.memory_bytes;
   return plan;
 }
 

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/args.hpp"
-#include "mc/extract.hpp"
-#include "mc/field.hpp"
-#include "mc/sink.hpp"
-#include "mc/source.hpp"
+#include "mc/convert.hpp"
 
 // From text to typed and complete options: the second shape. Everything that the command line alone
 // can get wrong is found here, before any file is opened, and nothing is clamped.
@@ -19,7 +15,6 @@
 namespace mc::cli {
 
 enum class ProgressMode : std::uint8_t { automatic, always, never, json };
-enum class Up : std::uint8_t { y, z };
 
 /// How a command talks, and how many threads it has.
 struct CommonOptions {
@@ -29,21 +24,7 @@ struct CommonOptions {
   bool verbose = false;
 };
 
-/// A surface value as asked for; which number it is may depend on the data.
-struct IsoChoice {
-  enum class Kind : std::uint8_t { number, otsu, percentile };
-  Kind kind = Kind::number;
-  double value = 0;  ///< the number, or the percentile in [0, 100]
-};
-
-/// Where the mesh should lie; unset: as the source says (DESIGN section 5).
-struct PlaceChoice {
-  std::optional<Frame> frame{};  ///< ras or lps
-  std::optional<Up> up{};
-  std::optional<Units> units{};  ///< mm or m
-};
-
-/// One volume that becomes one mesh.
+/// One volume that becomes one mesh or volume.
 struct Job {
   std::vector<std::string> inputs;  ///< one, or the slices of one volume
   std::string output;               ///< "-" is stdout
@@ -52,42 +33,19 @@ struct Job {
 struct ExtractPlan {
   std::vector<Job> jobs;  ///< one, but in a batch
   bool batch = false;
-  bool skip_existing = false;  ///< batch: leave out jobs whose output is there
-  SourceOptions source;
-  SinkOptions sink;
-  std::string format;           ///< of the output: SinkFormat::name
-  std::vector<IsoChoice> isos;  ///< empty: decided by the volume
-  std::optional<Inside> inside;
-  bool invert = false;
-  std::optional<Border> border;
-  ExtractOptions extract;  ///< all but iso, inside, border, precision and origin
-  PlaceChoice place;
-  std::uint64_t memory_bytes = 1ULL << 30;
+  std::string out_dir;         ///< of a batch
+  bool skip_existing = false;  ///< batch: leave out jobs whose output exists
+  std::string format;          ///< of the output: SinkFormat::name
+  ConvertOptions convert;
   std::optional<std::string> report;
-  bool dry_run = false;
-  bool allow_empty = false;
-  bool skip = true;
-  bool tells_iso = true;  ///< notes say which iso was taken, and why
   CommonOptions common;
-};
-
-/// Which plane of samples becomes a picture, and which greys its values are.
-struct SliceChoice {
-  int axis = 2;        ///< 0, 1, 2
-  bool world = false;  ///< `at` is a world coordinate, else an index
-  double at = 0;
-  int bits = 16;                                 ///< PNG: 8 or 16
-  std::optional<std::array<double, 2>> range{};  ///< PNG: black and white; unset: least, greatest
 };
 
 struct SamplePlan {
   Job job;
   SourceOptions source;
-  SinkOptions sink;
-  std::string format;
-  std::optional<IndexBox> region;
+  VolumeOptions volume;
   std::optional<SliceChoice> slice;
-  std::uint64_t memory_bytes = 1ULL << 30;
   CommonOptions common;
 };
 
@@ -99,6 +57,14 @@ std::uint64_t resolve_memory(const std::optional<std::string>& text);
 /// The values of --type and --normals.
 SampleType parse_type(const std::string& text);
 Normals parse_normals(const std::string& text);
+/// How a volume becomes a mesh of `format`.
+ConvertOptions resolve_conversion(const SourceArgs& source, const SurfaceArgs& surface,
+                                  const OutputArgs& out, const SinkFormat& format);
+/// How samples are written as a volume of `format`.
+VolumeOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
+                             const SinkFormat& format);
+/// Refuses glTF to a stream.
+void check_streamable(const std::string& output, const SinkFormat& format);
 /// Reads the names of --files-from. Errors   input: what holds them cannot be read.
 ExtractPlan resolve(const ExtractArgs& args);
 SamplePlan resolve(const SampleArgs& args);

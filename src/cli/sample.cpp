@@ -2,18 +2,28 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "cli/chosen_grid.hpp"
 #include "cli/command_line.hpp"
 #include "cli/help.hpp"
 #include "cli/invocation.hpp"
-#include "cli/region.hpp"
 #include "cli/resolve.hpp"
-#include "cli/slice.hpp"
-#include "cli/volume_job.hpp"
+#include "cli/summary.hpp"
+#include "convert/notes.hpp"
+#include "mc/convert.hpp"
 
 // `mc sample`: any volume to a volume file, or one slice of it to a picture.
 
 namespace mc::cli {
+
+namespace {
+
+void write_one_slice(const SamplePlan& plan, Invocation& invocation) {
+  const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
+  conversion::note_chosen_grid(source, plan.source, invocation.console);
+  write_slice(source.reader, plan.job.output, *plan.slice, plan.volume, invocation.console,
+              invocation.stop.get_token());
+}
+
+}  // namespace
 
 int run_sample(Invocation& invocation, std::vector<std::string> words) {
   SampleArgs args;
@@ -23,21 +33,25 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
     print_out(help_text("sample", args.common.verbose > 0));
     return 0;
   }
-  SamplePlan plan = resolve(args);
-  plan.sink.provenance.emplace_back("generator", "mc " MC_VERSION);
+  const SamplePlan plan = resolve(args);
   invocation.console.configure(plan.common);
   std::optional<base::ThreadLimit> limit;
   if (plan.common.threads > 0) limit.emplace(plan.common.threads);
-  // All planes are written in order; a slice or a region is not all of them.
-  plan.source.streams = !plan.slice && !plan.region;
-  plan.source.memory_bytes = plan.memory_bytes;
-  const Source source = open_source(plan.job.inputs, plan.source, invocation.console);
-  note_chosen_grid(source, plan.source, invocation.console);
-  check_region(source.reader, plan.region);
-  if (plan.slice) {
-    write_slice(source.reader, plan, invocation);
+  const std::stop_token stop = invocation.stop.get_token();
+  Summary summary;
+  if (!plan.slice) {
+    ConvertOptions options{.source = plan.source, .sink = plan.volume.sink};
+    options.extract.region = plan.volume.region;
+    options.memory_bytes = plan.volume.memory_bytes;
+    const ConvertReport report =
+        convert(plan.job.inputs, plan.job.output, options, invocation.console, stop);
+    summary.add_samples(plan.volume.region.value_or(report.volume->lattice.box));
   } else {
-    write_volume(source.reader, plan, invocation);
+    write_one_slice(plan, invocation);
+  }
+  if (invocation.console.shows_summary()) {
+    summary.add_file(plan.job.output);
+    invocation.console.note(summary.text(output_names({&plan.job.output, 1})));
   }
   return 0;
 }

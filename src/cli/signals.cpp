@@ -3,8 +3,7 @@
 
 #include <csignal>
 
-#include "mc/sink.hpp"
-#include "mc/source.hpp"
+#include "mc/host.hpp"
 
 namespace mc::cli {
 

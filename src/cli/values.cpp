@@ -165,17 +165,6 @@ std::uint64_t parse_size(std::string_view option, std::string_view text) {
   return *n_bytes;
 }
 
-std::string size_text(std::uint64_t n_bytes) {
-  static constexpr std::array<std::string_view, 5> kNames{"B", "KiB", "MiB", "GiB", "TiB"};
-  auto amount = static_cast<double>(n_bytes);
-  std::size_t unit = 0;
-  while (amount >= 1024 && unit + 1 < kNames.size()) {
-    amount /= 1024;
-    ++unit;
-  }
-  return unit == 0 ? fmt::format("{} B", n_bytes) : fmt::format("{:.1f} {}", amount, kNames[unit]);
-}
-
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known) {
   std::string_view best;
   std::size_t least = std::numeric_limits<std::size_t>::max();

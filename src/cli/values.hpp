@@ -39,9 +39,6 @@ IndexBox parse_region(std::string_view option, std::string_view text);
 /// Bytes: a whole number, and perhaps B, KiB, MiB, GiB, TiB (or K, M, G, T, which mean the same).
 std::uint64_t parse_size(std::string_view option, std::string_view text);
 
-/// "512 MiB": a size for people.
-std::string size_text(std::uint64_t n_bytes);
-
 /// The known name nearest to `name` by edit distance, or "" if none is near.
 /// Source   Levenshtein 1966. Near: at most three edits, and half the longer name's letters.
 std::string_view nearest_name(std::string_view name, std::span<const std::string_view> known);

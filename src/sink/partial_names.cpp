@@ -9,7 +9,7 @@
 #include <new>
 #include <thread>
 
-#include "mc/sink.hpp"
+#include "mc/host.hpp"
 
 // A map that is there from the start, since a signal may come before the first name and its handler
 // must not allocate, and that is never destroyed, so that it outlives every static object.

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "mc/base.hpp"
-#include "mc/source.hpp"
+#include "mc/host.hpp"
 
 // The list of mappings only grows, and entries are used again, so that a signal handler can walk it
 // at any time. A page whose bytes are gone is replaced by zeros, with all behind it: the reader

@@ -96,6 +96,11 @@ class Terminal(unittest.TestCase):
             with self.subTest(options=options, environment=environment):
                 self.assertNotIn("%", text_of(run(*options, **environment)))
 
+    def test_the_last_line_says_what_was_written(self):
+        last = re.split("\r\n|\n", text_of(run("--progress", "never")).rstrip())[-1]
+        self.assertRegex(last, r"^mc: .*m\.ply: \d+ vertices, \d+ triangles, [\d.]+ [KM]iB, \d+\.\d\d s$")
+        self.assertNotIn("vertices", text_of(run("-q")))
+
     def test_it_fits_the_terminal(self):
         for bar in re.split("\r", text_of(run("-q", "--progress", "always", columns=40))):
             self.assertLess(len(bar.rstrip("\n")), 40)

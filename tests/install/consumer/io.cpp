@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cstdio>
-#include <cstring>
 #include <iostream>
-#include <memory>
 #include <string>
-#include <variant>
-#include <vector>
 
-#include "mc/extract.hpp"
-#include "mc/sink.hpp"
-#include "mc/source.hpp"
+#include "mc/convert.hpp"
 
-// One sample inside, 26 around it outside: an octahedron, by way of a file.
+// One sample inside, 26 around it outside: an octahedron, by way of two files.
 int main() {
   const std::array<float, 27> samples = [] {
     std::array<float, 27> one{};
@@ -32,22 +26,11 @@ int main() {
   sink->write(slab);
   sink->finish();
 
-  const mc::Source source =
-      mc::open_source(std::vector<std::string>{path}, {}, mc::silent_progress());
+  mc::ConvertOptions options;
+  options.surface.isos = {{.value = 0.5}};
+  options.sink.force = true;
+  const mc::ConvertReport report = mc::convert(path, "consumer.ply", options);
   std::remove(path.c_str());
-  std::unique_ptr<mc::SlabReader> view;
-  if (const auto* sparse = std::get_if<std::unique_ptr<mc::LeafReader>>(&source.reader)) {
-    view = mc::dense_view(**sparse, volume.lattice.box);
-  }
-  const mc::SlabReader& dense =
-      view ? *view : *std::get<std::unique_ptr<mc::SlabReader>>(source.reader);
-  mc::Slab back;
-  dense.read(0, 3, back);
-  std::array<float, 27> read{};
-  for (std::size_t row = 0; row < 9; ++row) {
-    std::memcpy(read.data() + 3 * row, back.planes[row / 3] + row % 3 * back.row_stride_bytes,
-                3 * sizeof(float));
-  }
-  const mc::Mesh mesh = mc::extract(mc::View3<const float>(read.data(), {3, 3, 3}), {.iso = 0.5});
-  std::cout << mesh.positions.size() << " vertices, " << mesh.triangles.size() << " triangles\n";
+  std::cout << report.totals[0].n_vertices << " vertices, " << report.totals[0].n_triangles
+            << " triangles\n";
 }

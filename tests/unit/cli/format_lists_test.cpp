@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cli/help.hpp"
+#include "convert/chunk_writer.hpp"
 
 namespace mc::cli {
 namespace {
@@ -21,7 +22,7 @@ TEST(FormatLists, ComeInTheOrderOfTheRows) {
   EXPECT_THAT(sink::several_object_names(), ElementsAre("glb", "gltf", "obj"));
   EXPECT_EQ(sink::dotted(sink::picture_names({})), ".png or .exr");
   EXPECT_EQ(joined(source_names()), "vdb raw nrrd spec exr png");
-  EXPECT_EQ(chunk_format().name, "glb");
+  EXPECT_EQ(conversion::chunk_format().name, "glb");
 }
 
 TEST(FormatLists, HelpKnowsEveryExtension) {

@@ -32,7 +32,7 @@ TEST(CommandLine, TakesNegativeNumbersAsValues) {
   for (const auto& words : std::vector<std::vector<std::string>>{
            {"--iso", "-300.5", "v.vdb"}, {"--iso=-300.5", "v.vdb"}, {"v.vdb", "--iso", "-300.5"}}) {
     const ExtractArgs args = parsed(words);
-    EXPECT_EQ(args.iso, "-300.5");
+    EXPECT_EQ(args.surface.iso, "-300.5");
     EXPECT_THAT(args.source.inputs, ElementsAre("v.vdb"));
   }
   EXPECT_EQ(parsed({"--origin", "-1,-2,-3", "v.vdb"}).source.origin, "-1,-2,-3");
@@ -48,8 +48,8 @@ TEST(CommandLine, CountsFlags) {
   const ExtractArgs args = parsed({"-vv", "-q", "--force", "v.vdb"});
   EXPECT_EQ(args.common.verbose, 2);
   EXPECT_EQ(args.common.quiet, 1);
-  EXPECT_TRUE(args.force);
-  EXPECT_FALSE(args.ascii);
+  EXPECT_TRUE(args.out.force);
+  EXPECT_FALSE(args.out.ascii);
 }
 
 TEST(CommandLine, RefusesInOurWords) {
@@ -81,24 +81,24 @@ TEST(CommandLine, QuotesForAShell) {
 TEST(Resolve, FillsDefaults) {
   const ExtractPlan plan = plan_of({"v.vdb", "-o", "m.ply"});
   EXPECT_EQ(plan.format, "ply");
-  EXPECT_TRUE(plan.isos.empty());
-  EXPECT_FALSE(plan.inside);
-  EXPECT_FALSE(plan.border);
-  EXPECT_EQ(plan.extract.normals, Normals::gradient);
-  EXPECT_EQ(plan.extract.min_edge, 1.0 / 1024);
-  EXPECT_FALSE(plan.extract.measure);
+  EXPECT_TRUE(plan.convert.surface.isos.empty());
+  EXPECT_FALSE(plan.convert.surface.inside);
+  EXPECT_FALSE(plan.convert.surface.border);
+  EXPECT_FALSE(plan.convert.normals);
+  EXPECT_EQ(plan.convert.extract.min_edge, 1.0 / 1024);
+  EXPECT_FALSE(plan.convert.extract.measure);
   ASSERT_EQ(plan.jobs.size(), 1U);
   EXPECT_EQ(plan.jobs[0].output, "m.ply");
-  EXPECT_EQ(plan_of({"v.vdb", "-o", "m.stl"}).extract.normals, Normals::none);
+  EXPECT_FALSE(plan_of({"v.vdb", "-o", "m.stl"}).convert.normals);
 }
 
 TEST(Resolve, ReadsIsoLists) {
   const ExtractPlan plan = plan_of({"v.vdb", "-o", "m.glb", "--iso", "-1.5,otsu,p99.5"});
-  ASSERT_EQ(plan.isos.size(), 3U);
-  EXPECT_EQ(plan.isos[0].value, -1.5);
-  EXPECT_EQ(plan.isos[1].kind, IsoChoice::Kind::otsu);
-  EXPECT_EQ(plan.isos[2].kind, IsoChoice::Kind::percentile);
-  EXPECT_EQ(plan.isos[2].value, 99.5);
+  ASSERT_EQ(plan.convert.surface.isos.size(), 3U);
+  EXPECT_EQ(plan.convert.surface.isos[0].value, -1.5);
+  EXPECT_EQ(plan.convert.surface.isos[1].kind, IsoChoice::Kind::otsu);
+  EXPECT_EQ(plan.convert.surface.isos[2].kind, IsoChoice::Kind::percentile);
+  EXPECT_EQ(plan.convert.surface.isos[2].value, 99.5);
 }
 
 TEST(Resolve, RefusesValues) {
@@ -187,7 +187,7 @@ TEST(Resolve, NamesTheOutputsOfABatch) {
 }
 
 TEST(Resolve, MeasuresOnlyForAReport) {
-  EXPECT_TRUE(plan_of({"v.vdb", "-o", "m.ply", "--report", "r.json"}).extract.measure);
+  EXPECT_TRUE(plan_of({"v.vdb", "-o", "m.ply", "--report", "r.json"}).convert.extract.measure);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/values.hpp"
+#include "base/machine_memory.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -63,8 +64,8 @@ TEST(Values, ReadsAndShowsSizes) {
   EXPECT_EQ(usage_error([] { parse_size("--memory", "99999999999TiB"); }),
             "--memory: '99999999999TiB' is no size: expected a whole number and B, KiB, MiB or "
             "GiB");
-  EXPECT_EQ(size_text(1000), "1000 B");
-  EXPECT_EQ(size_text(1536), "1.5 KiB");
+  EXPECT_EQ(base::size_text(1000), "1000 B");
+  EXPECT_EQ(base::size_text(1536), "1.5 KiB");
 }
 
 TEST(Values, SplitsKeepingEmptyParts) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "mc/host.hpp"
 #include "unit/sink/sink_support.hpp"
 
 namespace mc::sink {

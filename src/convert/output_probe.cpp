@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cli/output_probe.hpp"
+#include "convert/output_probe.hpp"
 
 #include <sys/stat.h>
 
-namespace mc::cli {
+namespace mc::conversion {
 
 bool can_be_probed(const std::string& output) {
   if (output == "-") return false;
@@ -11,4 +11,4 @@ bool can_be_probed(const std::string& output) {
   return ::stat(output.c_str(), &status) != 0 || S_ISREG(status.st_mode);
 }
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

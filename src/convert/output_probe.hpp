@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace mc::cli {
+namespace mc::conversion {
 
 /// Whether opening the output and dropping it again finds out, unseen, that it can be written: so
 /// for what appears by its name in the end; devices and FIFOs feel it at their other end.
 bool can_be_probed(const std::string& output);
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

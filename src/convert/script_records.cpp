@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "cli/edit_session.hpp"
+#include "convert/script_run.hpp"
 
-// The records of a script, one by one: done and told of, or only described.
+// The records of a script, one by one: done and reported, or only described.
 
-namespace mc::cli {
+namespace mc::conversion {
 
 namespace {
 
@@ -20,81 +20,69 @@ void include(EditEffect& sum, const EditEffect& more) {
   sum.n_outside += more.n_outside;
 }
 
-std::string description_of(const RecordReport& report) {
-  const EditEffect& e = report.effect;
-  const std::string what = fmt::format("record {:<4} {:<8} {} dabs, {} samples", report.number,
-                                       report.op, e.n_dabs, e.n_samples);
-  if (is_empty(e.touched)) return what + ", outside the volume\n";
-  return fmt::format("{} in {} chunks, {} to {}\n", what, *report.n_reached,
-                     fmt::join(e.touched.lo, ","), fmt::join(e.touched.hi, ","));
-}
-
 }  // namespace
 
-/// The next good record; bad ones are told of, and end the script unless it is to be kept going.
-std::optional<source::ScriptRecord> EditSession::next_record() {
+/// Returns the next valid record; reports invalid ones, and stops at the first unless keep_going.
+std::optional<source::ScriptRecord> ScriptRun::next_record() {
   for (;;) {
     try {
       return script_.next();
     } catch (const Error& error) {
       // A record may name a volume that is too large.
       if (error.kind() != ErrorKind::usage && error.kind() != ErrorKind::limit) throw;
-      const int status = show(invocation_.console, {static_cast<int>(error.kind()), error.lines()});
-      if (status_ == 0) status_ = status;
-      if (plan_.keep_going) continue;
-      invocation_.console.note(
-          fmt::format("{}: stopped; what came before stands", script_.place()));
+      observer_.fault(error);
+      if (!report_.fault) report_.fault = error.kind();
+      if (options_.keep_going) continue;
+      progress_.note(fmt::format("{}: stopped; what came before stands", script_.place()));
       return std::nullopt;
     }
   }
 }
 
-void EditSession::follow_script() {
+void ScriptRun::follow_script() {
   while (const auto record = next_record()) {
-    if (invocation_.stop.stop_requested()) throw Cancelled();
+    if (stop_.stop_requested()) throw Cancelled();
     do_record(*record);
     last_number_ = record->number;
-    ++totals_.n_records;
+    ++report_.n_records;
   }
   if (!script_.torn().empty()) {
-    invocation_.console.warn(
+    progress_.warn(
         fmt::format("{}: the journal's last line is torn and was left out", script_.torn()));
   }
-  if (totals_.n_outside > 1) {
-    invocation_.console.note(fmt::format("{} edits lay outside the volume", totals_.n_outside));
+  if (report_.n_outside > 1) {
+    progress_.note(fmt::format("{} edits lay outside the volume", report_.n_outside));
   }
 }
 
-void EditSession::do_record(const source::ScriptRecord& record) {
+void ScriptRun::do_record(const source::ScriptRecord& record) {
   const auto began = Clock::now();
   RecordReport report{.number = record.number, .op = record.op};
   check_hash(record, record.before, "before");
   if (is_step(record.kind)) {
     step_back_or_forth(record, report);
   } else if (record.kind == source::RecordKind::write) {
-    EditOutput output = resolve_write(args_, source::path_of_write(record.path, ++n_writes_));
+    const ScriptOutput output = output_of_write(source::path_of_write(record.path, ++n_writes_));
     report.output = output.path;
-    pin(output);
-    write_output(std::move(output));
+    write_output(output);
   } else {
     report.effect = apply(record);
-    totals_.n_changed += report.effect.n_changed;
+    report_.n_changed += report.effect.n_changed;
     note_in_journal(record, 1);
   }
   check_hash(record, record.after, "after");
-  if (emitter_ && (!plan_.emits_at_writes || record.kind == source::RecordKind::write)) {
-    report.chunks = emitter_->emit_changes(store_->take_dirty(), record.number);
+  if (chunks_ && (!options_.chunks->at_writes || record.kind == source::RecordKind::write)) {
+    report.chunks = chunks_->write_changes(store_->take_dirty(), record.number);
   }
-  if (!is_heard()) return;
   report.bounds = bounds_of(report.effect.touched);
   report.seconds = std::chrono::duration<double>(Clock::now() - began).count();
-  tell(to_json(report));
+  observer_.record(report);
 }
 
-EditEffect EditSession::apply(const source::ScriptRecord& record) {
+EditEffect ScriptRun::apply(const source::ScriptRecord& record) {
   if (record.kind == source::RecordKind::edit) {
     const EditEffect effect = store_->apply(record.edit);
-    ++totals_.n_edits;
+    ++report_.n_edits;
     count_outside(record, effect);
     return effect;
   }
@@ -105,30 +93,30 @@ EditEffect EditSession::apply(const source::ScriptRecord& record) {
   return sum;
 }
 
-void EditSession::count_outside(const source::ScriptRecord& record, const EditEffect& effect) {
+void ScriptRun::count_outside(const source::ScriptRecord& record, const EditEffect& effect) {
   if (effect.n_dabs == 0 || effect.n_outside < effect.n_dabs) return;
-  if (totals_.n_outside++ != 0) return;
-  invocation_.console.warn(fmt::format(
+  if (report_.n_outside++ != 0) return;
+  progress_.warn(fmt::format(
       "{}: {} lies outside the volume and changes nothing; more such edits are only counted",
       script_.place(),
       record.number != 0 ? fmt::format("record {}", record.number) : "an edit of a group"));
 }
 
-void EditSession::step_back_or_forth(const source::ScriptRecord& record, RecordReport& report) {
+void ScriptRun::step_back_or_forth(const source::ScriptRecord& record, RecordReport& report) {
   const bool back = record.kind == source::RecordKind::undo;
   const std::size_t n = back ? store_->undo(record.count) : store_->redo(record.count);
   report.count = n;
   if (n < record.count) {
-    invocation_.console.warn(fmt::format("{}: record {}: {} of {} steps {}: there were no more",
-                                         script_.place(), record.number, n, record.count,
-                                         back ? "undone" : "done again"));
+    progress_.warn(fmt::format("{}: record {}: {} of {} steps {}: there were no more",
+                               script_.place(), record.number, n, record.count,
+                               back ? "undone" : "done again"));
   }
   if (n > 0) note_in_journal(record, n);
 }
 
 /// A journal is of use only on the volume that it was recorded on.
-void EditSession::check_hash(const source::ScriptRecord& record,
-                             const std::optional<std::uint64_t>& expected, const char* when) const {
+void ScriptRun::check_hash(const source::ScriptRecord& record,
+                           const std::optional<std::uint64_t>& expected, const char* when) const {
   if (!expected || *expected == store_->hash()) return;
   throw Error(ErrorKind::input, script_.place(),
               fmt::format("record {}: the volume {} it differs from the one that was recorded",
@@ -136,7 +124,7 @@ void EditSession::check_hash(const source::ScriptRecord& record,
               R"(replay a journal on its own input, or leave out "before" and "after")");
 }
 
-void EditSession::note_in_journal(const source::ScriptRecord& record, std::size_t n_steps) {
+void ScriptRun::note_in_journal(const source::ScriptRecord& record, std::size_t n_steps) {
   if (!journal_) return;
   const std::uint64_t before = std::exchange(hash_, store_->hash());
   const std::string text = is_step(record.kind)
@@ -146,7 +134,7 @@ void EditSession::note_in_journal(const source::ScriptRecord& record, std::size_
 }
 
 /// The corners' box in the script's space.
-Bounds EditSession::bounds_of(const IndexBox& touched) const {
+Bounds ScriptRun::bounds_of(const IndexBox& touched) const {
   Bounds bounds;
   if (is_empty(touched)) return bounds;
   for (int corner = 0; corner < 8; ++corner) {
@@ -158,7 +146,7 @@ Bounds EditSession::bounds_of(const IndexBox& touched) const {
   return bounds;
 }
 
-EditEffect EditSession::measure(const source::ScriptRecord& record) {
+EditEffect ScriptRun::measure(const source::ScriptRecord& record) {
   if (record.kind == source::RecordKind::edit) return store_->measure(record.edit);
   EditEffect sum;
   for (const source::ScriptRecord& member : record.members) include(sum, measure(member));
@@ -166,23 +154,23 @@ EditEffect EditSession::measure(const source::ScriptRecord& record) {
 }
 
 /// What each record would touch of the volume as it is.
-void EditSession::describe() {
-  const ChunkMesher chunks(*store_, chunk_options(plan_, *source_));
+void ScriptRun::describe() {
+  const std::int32_t n_cells = options_.chunks.value_or(ChunkOutput{}).n_cells;
+  const ChunkMesher chunks(*store_, chunk_options(options_.base, n_cells, *source_, surface_));
   while (const auto record = next_record()) {
-    ++totals_.n_records;
-    if (is_step(record->kind) || record->kind == source::RecordKind::write) {
-      if (plan_.report != "-") {
-        print_out(fmt::format("record {:<4} {}{}\n", record->number, record->op,
-                              record->path.empty() ? "" : " " + record->path));
-      }
-      continue;
+    ++report_.n_records;
+    RecordReport report{.number = record->number, .op = record->op};
+    if (record->kind == source::RecordKind::write) {
+      report.output = record->path;
+    } else if (is_step(record->kind)) {
+      report.count = record->count;
+    } else {
+      report.effect = measure(*record);
+      report.n_reached = chunks.n_reached(report.effect.touched);
+      report.bounds = bounds_of(report.effect.touched);
     }
-    RecordReport report{.number = record->number, .op = record->op, .effect = measure(*record)};
-    report.n_reached = chunks.n_reached(report.effect.touched);
-    report.bounds = bounds_of(report.effect.touched);
-    if (plan_.report) report_.add_line(to_json(report));
-    if (plan_.report != "-") print_out(description_of(report));
+    observer_.record(report);
   }
 }
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

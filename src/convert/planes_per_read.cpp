@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "cli/planes_a_read.hpp"
+#include "convert/planes_per_read.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "cli/values.hpp"
+#include "base/machine_memory.hpp"
 #include "mc/base.hpp"
 
-namespace mc::cli {
+namespace mc::conversion {
 
-std::int32_t planes_a_read(const Volume& volume, std::uint64_t memory_bytes,
-                           std::string_view place) {
+std::int32_t planes_per_read(const Volume& volume, std::uint64_t memory_bytes,
+                             std::string_view place) {
   const IndexBox& box = volume.lattice.box;
   const std::uint64_t plane_bytes = static_cast<std::uint64_t>(box.extent(0)) *
                                     static_cast<std::uint64_t>(box.extent(1)) *
@@ -20,10 +20,10 @@ std::int32_t planes_a_read(const Volume& volume, std::uint64_t memory_bytes,
   if (n_planes == 0) {
     throw Error(ErrorKind::limit, place,
                 fmt::format("two planes of samples need {}, but --memory allows {}",
-                            size_text(2 * plane_bytes), size_text(memory_bytes)),
+                            base::size_text(2 * plane_bytes), base::size_text(memory_bytes)),
                 "raise --memory, or choose a --region");
   }
   return static_cast<std::int32_t>(std::min<std::uint64_t>(n_planes, 32));
 }
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

@@ -6,7 +6,7 @@
 
 // Where `--journal` goes: edits as they were made, each with hashes of the volume before and after.
 
-namespace mc::cli {
+namespace mc::conversion {
 
 /// A file that grows by whole lines. What was written stays, whatever becomes of the process; a
 /// line is on its way to the disk before the next edit begins.
@@ -30,4 +30,4 @@ class Journal {
   bool sync_ = false;
 };
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

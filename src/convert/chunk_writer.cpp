@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "cli/chunk_emitter.hpp"
+#include "convert/chunk_writer.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
@@ -12,17 +12,14 @@
 #include <utility>
 
 #include "base/hash.hpp"
-#include "cli/facts.hpp"
-#include "cli/format_lists.hpp"
-#include "cli/invocation.hpp"
-#include "cli/placement.hpp"
-#include "cli/surface_choice.hpp"
+#include "convert/output_frame.hpp"
+#include "convert/provenance.hpp"
 #include "sink/file_writer.hpp"
 
-// A chunk leaves as soon as it is made, so that no more than one is held; who follows waits for the
-// record's line, which comes last, before taking what came as one state of the surface.
+// A chunk leaves as soon as it is made, so that only one is in memory. A viewer waits for the
+// record's report, which comes last, before it shows the chunks as one state of the surface.
 
-namespace mc::cli {
+namespace mc::conversion {
 
 namespace {
 
@@ -62,57 +59,64 @@ std::uint64_t hash_of(const MeshChunk& mesh) {
   return h;
 }
 
-SinkOptions glb_options(const EditPlan& plan, const Source& source, Border border) {
+SinkOptions glb_options(const ConvertOptions& base, const Source& source, const Surface& surface) {
   const Volume& volume = volume_of(source.reader);
   SinkOptions options;
   options.to = chunk_format().name;
   options.force = true;  // a chunk replaces the one before it
-  options.sync = plan.surface.sink.sync;
-  options.provenance =
-      facts_of(volume, std::array{Iso{plan.surface.isos.front().value, {}}}, *plan.surface.inside,
-               border, place(volume, plan.surface.place, options.to), options.to);
+  options.to = chunk_format().name;
+  options.force = true;  // a chunk replaces the one before it
+  options.sync = base.sink.sync;
+  Surface shown = surface;
+  shown.isos.resize(1);
+  options.provenance = provenance_of(
+      volume, shown, output_frame(volume, base.frame, chunk_format()), chunk_format());
   return options;
 }
 
 }  // namespace
 
-ChunkOptions chunk_options(const EditPlan& plan, const Source& source) {
-  const ExtractPlan& surface = plan.surface;
+const SinkFormat& chunk_format() {
+  return **std::ranges::find_if(sink_formats(), [](const SinkFormat* f) { return f->to_memory; });
+}
+
+ChunkOptions chunk_options(const ConvertOptions& base, std::int32_t n_cells, const Source& source,
+                           const Surface& surface) {
   const Volume& volume = volume_of(source.reader);
-  const IndexBox box = surface.extract.region.value_or(volume.lattice.box);
-  const Placement placement = place(volume, surface.place, chunk_format().name);
-  ChunkOptions options{.extract = surface.extract, .to_world = placement.to_world};
-  options.n_cells = plan.chunk_cells;
+  const IndexBox box = base.extract.region.value_or(volume.lattice.box);
+  const OutputFrame frame = output_frame(volume, base.frame, chunk_format());
+  ChunkOptions options{.extract = base.extract, .to_world = frame.to_world};
+  options.n_cells = n_cells;
   options.extract.iso = surface.isos.front().value;
-  options.extract.inside = *surface.inside;
-  options.extract.border = choose_border(surface.border, volume);
+  options.extract.inside = surface.inside;
+  options.extract.border = surface.border;
+  options.extract.normals = base.normals.value_or(Normals::gradient);
   options.extract.measure = false;
-  const bool moves = rounding_loss(box, placement.to_world, Precision::f32).matters;
-  const MeshNeeds needs = chunk_format().needs(surface.sink, moves);
-  check_told_apart(source.place, box, placement.to_world, needs,
-                   surface.source.spacing || surface.source.origin);
-  if (needs.relative_origin) options.extract.origin = double_origin(box, placement.to_world);
+  const bool moves = rounding_loss(box, frame.to_world, Precision::f32).matters;
+  const MeshNeeds needs = chunk_format().needs(base.sink, moves);
+  check_told_apart(source.place, box, frame.to_world, needs,
+                   base.source.spacing || base.source.origin);
+  if (needs.relative_origin) options.extract.origin = double_origin(box, frame.to_world);
   return options;
 }
 
-ChunkEmitter::ChunkEmitter(const EditPlan& plan, const Source& source, const EditStore& store)
-    : plan_(plan),
-      options_(chunk_options(plan, source)),
-      sink_(glb_options(plan, source, options_.extract.border)),
+ChunkWriter::ChunkWriter(const ChunkOutput& output, const ConvertOptions& base,
+                         const Source& source, const Surface& surface, const EditStore& store,
+                         ScriptObserver& observer)
+    : output_(output),
+      observer_(observer),
+      options_(chunk_options(base, output.n_cells, source, surface)),
+      sink_(glb_options(base, source, surface)),
       mesher_(store, options_) {
-  if (plan.chunk_dir) look_at_folder();
-  if (plan.sends_chunks() && !plan.surface.sink.force && ::isatty(STDOUT_FILENO) == 1) {
-    throw Error(ErrorKind::output, "<stdout>", "is a terminal, and the output is binary",
-                "redirect it, give --chunk-dir DIR, or add --force");
-  }
+  if (output.folder) look_at_folder(base.sink.force);
 }
 
-std::string ChunkEmitter::path_of(const std::string& name) const {
-  return (fs::path(*plan_.chunk_dir) / name).string();
+std::string ChunkWriter::path_of(const std::string& name) const {
+  return (fs::path(*output_.folder) / name).string();
 }
 
-void ChunkEmitter::look_at_folder() {
-  const std::string& folder = *plan_.chunk_dir;
+void ChunkWriter::look_at_folder(bool force) {
+  const std::string& folder = *output_.folder;
   std::error_code fault;
   for (fs::directory_iterator at(folder, fault), end; !fault && at != end; at.increment(fault)) {
     const std::string name = at->path().filename().string();
@@ -122,14 +126,14 @@ void ChunkEmitter::look_at_folder() {
     throw Error(ErrorKind::output, folder, "cannot read the folder: " + fault.message(),
                 fault == std::errc::no_such_file_or_directory ? "create it first" : "");
   }
-  if (!found_.empty() && !plan_.surface.sink.force) {
+  if (!found_.empty() && !force) {
     throw Error(ErrorKind::output, path_of(*found_.begin()), "exists",
                 "name an empty folder, or add --force to replace its chunks");
   }
 }
 
-void ChunkEmitter::put(const SurfaceChunk& chunk, const std::string& path,
-                       const SinkOptions& to) const {
+void ChunkWriter::put(const SurfaceChunk& chunk, const std::string& path,
+                      const SinkOptions& to) const {
   MeshObject object;
   object.name = fmt::format("chunk {} {} {}", chunk.id[0], chunk.id[1], chunk.id[2]);
   object.iso = options_.extract.iso;
@@ -146,47 +150,44 @@ void ChunkEmitter::put(const SurfaceChunk& chunk, const std::string& path,
 }
 
 /// How many bytes it has.
-std::uint64_t ChunkEmitter::write_file(const SurfaceChunk& chunk, const std::string& name) {
+std::uint64_t ChunkWriter::write_file(const SurfaceChunk& chunk, const std::string& name) {
   const std::string path = path_of(name);
   put(chunk, path, sink_);
   found_.erase(name);
   return fs::file_size(path);
 }
 
-std::uint64_t ChunkEmitter::send(const SurfaceChunk& chunk, std::uint64_t record) {
+std::uint64_t ChunkWriter::hand_out(const SurfaceChunk& chunk, std::uint64_t record) {
   SinkOptions to = sink_;
   to.memory = &glb_;
   put(chunk, "<stdout>", to);
-  const Index3& id = chunk.id;
-  print_out(fmt::format("{{\"record\":{},\"chunk\":[{},{},{}],\"bytes\":{}}}\n", record, id[0],
-                        id[1], id[2], glb_.size()));
-  print_out({reinterpret_cast<const char*>(glb_.data()), glb_.size()});
+  observer_.chunk(record, chunk.id, glb_);
   return glb_.size();
 }
 
-void ChunkEmitter::remove(const std::string& name) const {
+void ChunkWriter::remove(const std::string& name) const {
   const std::string path = path_of(name);
   if (::unlink(path.c_str()) != 0 && errno != ENOENT) sink::cannot("remove", path);
 }
 
-void ChunkEmitter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkChanges& changes) {
-  const std::string name = plan_.chunk_dir ? name_of_chunk(chunk.id) : "";
+void ChunkWriter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkChanges& changes) {
+  const std::string name = output_.folder ? name_of_chunk(chunk.id) : "";
   if (chunk.mesh.n_triangles() == 0) {
     hashes_.erase(chunk.id);
     changes.removed.push_back(chunk.id);
-    if (plan_.chunk_dir) remove(name);
+    if (output_.folder) remove(name);
     return;
   }
   const std::uint64_t hash = hash_of(chunk.mesh);
   const auto [held, is_new] = hashes_.try_emplace(chunk.id, hash);
   if (!is_new && std::exchange(held->second, hash) == hash) return;
   n_materials_held_ += chunk.totals.n_materials_held;
-  const std::uint64_t n_bytes = plan_.chunk_dir ? write_file(chunk, name) : send(chunk, record);
+  const std::uint64_t n_bytes = output_.folder ? write_file(chunk, name) : hand_out(chunk, record);
   changes.updated.push_back({chunk.id, name, n_bytes, chunk.mesh.n_vertices(),
                              chunk.mesh.n_triangles(), chunk.totals.bounds});
 }
 
-ChunkChanges ChunkEmitter::emit_all() {
+ChunkChanges ChunkWriter::write_all() {
   ChunkChanges changes;
   mesher_.build([&](const SurfaceChunk& chunk) { take(chunk, 0, changes); });
   for (const std::string& name : std::exchange(found_, {})) remove(name);
@@ -194,11 +195,11 @@ ChunkChanges ChunkEmitter::emit_all() {
   return changes;
 }
 
-ChunkChanges ChunkEmitter::emit_changes(std::span<const IndexBox> dirty, std::uint64_t record) {
+ChunkChanges ChunkWriter::write_changes(std::span<const IndexBox> dirty, std::uint64_t record) {
   ChunkChanges changes;
   mesher_.update(dirty, [&](const SurfaceChunk& chunk) { take(chunk, record, changes); });
   changes.sums = mesher_.sums();
   return changes;
 }
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/placement.hpp"
+#include "convert/output_frame.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 // Frames are signed permutations of axes, units a scale; both are exact but for the scale itself.
 
-namespace mc::cli {
+namespace mc::conversion {
 
 namespace {
 
@@ -47,7 +47,7 @@ std::array<Vec3, 8> corners(const IndexBox& box, const Affine& to_world) {
   return points;
 }
 
-void place_y_up(Placement& at, const PlaceChoice& choice) {
+void turn_y_up(OutputFrame& at, const FrameChoice& choice) {
   const bool medical = at.source_frame != Frame::none;
   if (at.source_units == Units::unknown && medical) at.source_units = Units::mm;
   if (choice.units == Units::mm && at.source_units == Units::m) {
@@ -61,7 +61,7 @@ void place_y_up(Placement& at, const PlaceChoice& choice) {
   at.units = at.source_units == Units::unknown ? Units::unknown : Units::m;
 }
 
-void place_as_source(Placement& at, const PlaceChoice& choice) {
+void keep_source_axes(OutputFrame& at, const FrameChoice& choice) {
   at.frame = choice.frame.value_or(at.source_frame);
   if (at.frame != at.source_frame) at.to_world = kTurnAboutSuperior.after(at.to_world);
   at.units = choice.units.value_or(at.source_units);
@@ -69,27 +69,6 @@ void place_as_source(Placement& at, const PlaceChoice& choice) {
 }
 
 }  // namespace
-
-Placement place(const Volume& volume, const PlaceChoice& choice, std::string_view format) {
-  Placement at;
-  at.to_world = volume.lattice.to_world;
-  at.source_frame = volume.frame == Frame::none ? choice.frame.value_or(Frame::none) : volume.frame;
-  at.source_units =
-      volume.units == Units::unknown ? choice.units.value_or(Units::unknown) : volume.units;
-  if (choice.up && volume.frame != Frame::none) {
-    throw Error(
-        ErrorKind::usage, "--up",
-        std::string("is for sources without a frame, but this one is in ") + name_of(volume.frame));
-  }
-  at.source_up = choice.up.value_or(Up::y);
-  if (find_sink_format(format)->y_up_metres) {
-    place_y_up(at, choice);
-  } else {
-    place_as_source(at, choice);
-  }
-  at.to_world = without_negative_zero(at.to_world);
-  return at;
-}
 
 RoundingLoss rounding_loss(const IndexBox& box, const Affine& to_world, Precision precision) {
   double largest = 0;
@@ -137,6 +116,32 @@ void check_told_apart(const std::string& place, const IndexBox& box, const Affin
                                                 : "change --spacing and --origin");
 }
 
+}  // namespace mc::conversion
+
+namespace mc {
+
+OutputFrame output_frame(const Volume& volume, const FrameChoice& choice,
+                         const SinkFormat& format) {
+  OutputFrame at;
+  at.to_world = volume.lattice.to_world;
+  at.source_frame = volume.frame == Frame::none ? choice.frame.value_or(Frame::none) : volume.frame;
+  at.source_units =
+      volume.units == Units::unknown ? choice.units.value_or(Units::unknown) : volume.units;
+  if (choice.up && volume.frame != Frame::none) {
+    throw Error(
+        ErrorKind::usage, "--up",
+        std::string("is for sources without a frame, but this one is in ") + name_of(volume.frame));
+  }
+  at.source_up = choice.up.value_or(Up::y);
+  if (format.y_up_metres) {
+    conversion::turn_y_up(at, choice);
+  } else {
+    conversion::keep_source_axes(at, choice);
+  }
+  at.to_world = conversion::without_negative_zero(at.to_world);
+  return at;
+}
+
 const char* name_of(Frame frame) {
   switch (frame) {
     case Frame::none:
@@ -163,4 +168,4 @@ const char* name_of(Units units) {
 
 const char* name_of(Up up) { return up == Up::y ? "y" : "z"; }
 
-}  // namespace mc::cli
+}  // namespace mc

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cli/region.hpp"
+#include "mc/convert.hpp"
 
 #include <fmt/format.h>
 
-#include "mc/base.hpp"
-
-namespace mc::cli {
+namespace mc {
 
 namespace {
 
@@ -32,4 +30,4 @@ void check_region(const VolumeReader& reader, const std::optional<IndexBox>& reg
                           box_text(whole)));
 }
 
-}  // namespace mc::cli
+}  // namespace mc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/journal.hpp"
+#include "convert/journal.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@
 // One write a line, at the file's end: a process that is killed leaves whole lines, and one torn
 // line at most.
 
-namespace mc::cli {
+namespace mc::conversion {
 
 Journal::Journal(const std::string& path, const std::string& header, bool force, bool sync)
     : path_(path), sync_(sync) {
@@ -52,4 +52,4 @@ void Journal::add(const std::string& record, std::uint64_t before, std::uint64_t
                          record.substr(0, record.size() - 1), before, after));
 }
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "cli/slice.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,15 +7,15 @@
 #include <cstring>
 #include <limits>
 
-#include "cli/planes_a_read.hpp"
-#include "cli/values.hpp"
+#include "convert/planes_per_read.hpp"
+#include "convert/provenance.hpp"
 #include "field/visit_type.hpp"
-#include "mc/sink.hpp"
-#include "mc/source.hpp"
+#include "mc/convert.hpp"
+#include "mc/host.hpp"
 
-// `mc sample --slice`: one plane of samples, gathered from the planes that a reader hands out.
+// One plane of samples, gathered from the planes that a reader hands out.
 
-namespace mc::cli {
+namespace mc {
 
 namespace {
 
@@ -116,20 +114,21 @@ class Gatherer {
 };
 
 Picture read_plane(const SlabReader& thin, const Volume& whole, std::size_t axis,
-                   const SamplePlan& plan, Invocation& invocation) {
+                   const std::string& output, std::uint64_t memory_bytes, Progress& progress,
+                   const std::stop_token& stop) {
   const std::int32_t step =
-      planes_a_read(whole, memory_beside(thin.held_bytes(), plan.memory_bytes), plan.job.output);
+      conversion::planes_per_read(whole, memory_beside(thin.held_bytes(), memory_bytes), output);
   const std::int32_t n_planes = thin.volume().lattice.dims()[2];
   Gatherer gatherer(thin.volume(), axis);
-  invocation.console.begin("slice", static_cast<std::uint64_t>(n_planes), "planes");
+  progress.begin("slice", static_cast<std::uint64_t>(n_planes), "planes");
   Slab slab;
   for (std::int32_t k = 0; k < n_planes; k += step) {
-    if (invocation.stop.stop_requested()) throw Cancelled();
+    if (stop.stop_requested()) throw Cancelled();
     thin.read(k, std::min(n_planes, k + step), slab);
     gatherer.take(slab);
-    invocation.console.advance(slab.planes.size());
+    progress.advance(slab.planes.size());
   }
-  invocation.console.end_stage();
+  progress.end_stage();
   return gatherer.picture();
 }
 
@@ -193,11 +192,13 @@ void write_grey(const Picture& picture, const SliceChoice& slice, const std::str
 
 }  // namespace
 
-void write_slice(const VolumeReader& from, const SamplePlan& plan, Invocation& invocation) {
+void write_slice(const VolumeReader& from, const std::string& output, const SliceChoice& slice,
+                 const VolumeOptions& options, Progress& progress, const std::stop_token& stop) {
+  check_region(from, options.region);
   const Volume& volume = volume_of(from);
   Lattice lattice = volume.lattice;
-  if (plan.region) lattice.box = *plan.region;
-  const Plane plane = chosen_plane(lattice, *plan.slice, invocation.console);
+  if (options.region) lattice.box = *options.region;
+  const Plane plane = chosen_plane(lattice, slice, progress);
   IndexBox box = lattice.box;
   box.lo[plane.axis] = plane.index;
   box.hi[plane.axis] = plane.index;
@@ -205,14 +206,17 @@ void write_slice(const VolumeReader& from, const SamplePlan& plan, Invocation& i
   const std::unique_ptr<SlabReader> thin =
       dense != nullptr ? crop_view(**dense, box)
                        : dense_view(*std::get<std::unique_ptr<LeafReader>>(from), box);
-  const std::unique_ptr<PictureSink> sink = open_picture_sink(plan.job.output, plan.sink);
-  const Picture picture = read_plane(*thin, volume, plane.axis, plan, invocation);
+  SinkOptions into = options.sink;
+  into.provenance.push_back(conversion::generator());
+  const std::unique_ptr<PictureSink> sink = open_picture_sink(output, into);
+  const Picture picture =
+      read_plane(*thin, volume, plane.axis, output, options.memory_bytes, progress, stop);
   refuse_changed_inputs();
-  if (find_sink_format(plan.format)->greys) {
-    write_grey(picture, *plan.slice, plan.job.output, *sink, invocation.console);
+  if (output_format(output, into).greys) {
+    write_grey(picture, slice, output, *sink, progress);
   } else {
     sink->write(picture, {});
   }
 }
 
-}  // namespace mc::cli
+}  // namespace mc

@@ -6,32 +6,30 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
-#include "cli/chunk_emitter.hpp"
-#include "cli/edit_report.hpp"
-#include "cli/invocation.hpp"
-#include "cli/journal.hpp"
-#include "cli/peak_memory.hpp"
-#include "cli/report_file.hpp"
-#include "cli/resolve_edit.hpp"
-#include "mc/edit.hpp"
-#include "mc/source.hpp"
+#include "convert/chunk_writer.hpp"
+#include "convert/journal.hpp"
+#include "mc/convert.hpp"
 #include "source/script/script.hpp"
 
-// A volume, a script, and what becomes of them.
+// A volume, a script, and what becomes of them: see apply_script().
 
-namespace mc::cli {
+namespace mc::conversion {
 
-class EditSession {
+class ScriptRun {
  public:
-  EditSession(const EditArgs& args, EditPlan plan, Invocation& invocation);
+  /// Opens the script. Keeps references to all but the script's path.
+  ScriptRun(std::span<const std::string> inputs, const std::string& script,
+            const ScriptOptions& options, ScriptObserver& observer, Progress& progress,
+            const std::stop_token& stop, ScriptReport& report);
 
-  /// All of it; returns the exit status. What ends the work is thrown.
-  int run();
-  /// The last line of the report, with what was thrown.
-  void close_report(int status, const std::optional<std::string>& error);
+  void run();
+  /// Enters into the report what the edits stored so far.
+  void report_store();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -44,15 +42,12 @@ class EditSession {
   void check_outputs();
   void open_input();
   void choose_surface();
-  void pin(EditOutput& output) const;
-  void probe(const EditOutput& output) const;
+  void probe(const ScriptOutput& output) const;
   void describe();
   void begin();
-  void begin_to_emit();
-  void end_to_emit();
-  template <class Emit>
-  void tell_state(const char* op, Emit&& emit);
-  void note_materials() const;
+  template <class Write>
+  void report_state(const char* op, Write&& write);
+  void warn_of_materials() const;
   void follow_script();
   std::optional<source::ScriptRecord> next_record();
   void do_record(const source::ScriptRecord& record);
@@ -63,29 +58,28 @@ class EditSession {
   void check_hash(const source::ScriptRecord& record, const std::optional<std::uint64_t>& expected,
                   const char* when) const;
   void note_in_journal(const source::ScriptRecord& record, std::size_t n_steps);
-  void write_output(EditOutput output);
-  void tell(const std::string& line);
-  [[nodiscard]] bool is_heard() const;
+  [[nodiscard]] ScriptOutput output_of_write(const std::string& path) const;
+  void write_output(const ScriptOutput& output);
   [[nodiscard]] Bounds bounds_of(const IndexBox& touched) const;
 
-  const EditArgs& args_;
-  EditPlan plan_;
-  Invocation& invocation_;
-  ReportFile report_;
-  std::optional<PeakMemory> peak_;  // only with a report
+  std::span<const std::string> inputs_;
+  const ScriptOptions& options_;
+  ScriptObserver& observer_;
+  Progress& progress_;
+  const std::stop_token& stop_;
+  ScriptReport& report_;
   source::Script script_;
   std::optional<Source> source_;
+  Surface surface_;
   std::optional<EditStore> store_;
   std::unique_ptr<Journal> journal_;
-  std::unique_ptr<ChunkEmitter> emitter_;
-  std::vector<EditOutput> writes_;  // those of a script that was looked at beforehand
-  std::set<std::string> written_;   // their names
+  std::unique_ptr<ChunkWriter> chunks_;
+  std::vector<ScriptOutput> writes_;  // those of a script that was checked beforehand
+  std::set<std::string> written_;     // their names
   bool may_undo_ = true;
   std::uint64_t n_writes_ = 0;
   std::uint64_t last_number_ = 0;  // of the records done
   std::uint64_t hash_ = 0;         // of the store, where a journal is kept
-  int status_ = 0;
-  EditTotals totals_;
 };
 
-}  // namespace mc::cli
+}  // namespace mc::conversion

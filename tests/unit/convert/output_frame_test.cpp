@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "cli/placement.hpp"
+#include "convert/output_frame.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/surface_choice.hpp"
+#include "convert/surface_choice.hpp"
 #include "support/usage_error.hpp"
 
-namespace mc::cli {
+namespace mc::conversion {
 namespace {
 
 using tests::usage_error;
@@ -22,8 +22,8 @@ Volume volume_in(Frame frame, Units units) {
   return volume;
 }
 
-Vec3 placed(Frame frame, Units units, const PlaceChoice& choice, std::string_view format) {
-  return place(volume_in(frame, units), choice, format).to_world(kPoint);
+Vec3 placed(Frame frame, Units units, const FrameChoice& choice, std::string_view format) {
+  return output_frame(volume_in(frame, units), choice, *find_sink_format(format)).to_world(kPoint);
 }
 
 TEST(Placement, KeepsTheSourcesFrameInPly) {
@@ -40,9 +40,12 @@ TEST(Placement, TurnsMedicalFramesYUpInGltf) {
 
 TEST(Placement, TurningKeepsHandedness) {
   for (const Frame frame : {Frame::none, Frame::ras, Frame::lps}) {
-    EXPECT_GT(place(volume_in(frame, Units::m), {}, "glb").to_world.determinant(), 0);
+    EXPECT_GT(output_frame(volume_in(frame, Units::m), {}, *find_sink_format("glb"))
+                  .to_world.determinant(),
+              0);
   }
-  EXPECT_GT(place(volume_in(Frame::none, Units::m), {.up = Up::z}, "glb").to_world.determinant(),
+  EXPECT_GT(output_frame(volume_in(Frame::none, Units::m), {.up = Up::z}, *find_sink_format("glb"))
+                .to_world.determinant(),
             0);
 }
 
@@ -126,11 +129,11 @@ TEST(SurfaceChoice, DefaultsFollowTheClass) {
   volume.cls = VolumeClass::fog;
   EXPECT_EQ(choose_isos({}, volume, "v", never).front().value, 0.5);
   EXPECT_EQ(choose_isos({}, volume, "v", never).front().reason, "fog volume");
-  EXPECT_EQ(choose_inside({}, false, volume), Inside::above);
+  EXPECT_EQ(choose_inside({}, volume), Inside::above);
   volume.cls = VolumeClass::level_set;
   EXPECT_EQ(choose_isos({}, volume, "v", never).front().value, 0);
-  EXPECT_EQ(choose_inside({}, false, volume), Inside::below);
-  EXPECT_EQ(choose_inside({}, true, volume), Inside::above);
+  EXPECT_EQ(choose_inside({}, volume), Inside::below);
+  EXPECT_EQ(choose_inside({.invert = true}, volume), Inside::above);
   volume.iso = 3;
   EXPECT_EQ(choose_isos({}, volume, "v", never).front().value, 3);
 }
@@ -141,7 +144,7 @@ TEST(SurfaceChoice, RoundsTheIsoAsTheDataAre) {
   volume.type = SampleType::f32;
   const Iso iso = choose_isos({&tenth, 1}, volume, "v", {}).front();
   EXPECT_EQ(iso.value, double{0.1F});
-  EXPECT_EQ(iso_text(iso.value, volume.type), "0.1");
+  EXPECT_EQ(value_text(iso.value, volume.type), "0.1");
   volume.type = SampleType::u8;
   EXPECT_EQ(choose_isos({&tenth, 1}, volume, "v", {}).front().value, 0.1);
 }
@@ -173,4 +176,4 @@ TEST(SurfaceChoice, ReadsTheDataOnceForAllThatNeedThem) {
 }
 
 }  // namespace
-}  // namespace mc::cli
+}  // namespace mc::conversion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/surface_choice.hpp"
+#include "convert/surface_choice.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "field/volume_names.hpp"
 #include "mc/source.hpp"
 
-namespace mc::cli {
+namespace mc::conversion {
 
 namespace {
 
@@ -45,19 +46,19 @@ std::optional<Iso> own_iso(const Volume& volume) {
   return std::nullopt;
 }
 
+Iso default_iso(const Volume& volume, const FieldStatistics* statistics) {
+  if (const auto own = own_iso(volume)) return *own;
+  const double otsu =
+      statistics != nullptr ? statistics->otsu : std::numeric_limits<double>::quiet_NaN();
+  return {as_compared(otsu, volume.type), "otsu"};
+}
+
 }  // namespace
 
 bool iso_needs_data(std::span<const IsoChoice> asked, const Volume& volume) {
   if (asked.empty()) return !own_iso(volume);
   return std::any_of(asked.begin(), asked.end(),
                      [](const IsoChoice& iso) { return iso.kind != IsoChoice::Kind::number; });
-}
-
-Iso default_iso(const Volume& volume, const FieldStatistics* statistics) {
-  if (const auto own = own_iso(volume)) return *own;
-  const double otsu =
-      statistics != nullptr ? statistics->otsu : std::numeric_limits<double>::quiet_NaN();
-  return {as_compared(otsu, volume.type), "otsu"};
 }
 
 std::vector<Iso> choose_isos(std::span<const IsoChoice> asked, const Volume& volume,
@@ -101,34 +102,34 @@ std::vector<Iso> choose_isos(std::span<const IsoChoice> asked, const Volume& vol
   return isos;
 }
 
-Inside choose_inside(std::optional<Inside> asked, bool invert, const Volume& volume) {
+Inside choose_inside(const SurfaceChoice& choice, const Volume& volume) {
   const bool distance = volume.cls == VolumeClass::level_set || volume.cls == VolumeClass::sdf_spec;
-  const Inside side = asked.value_or(distance ? Inside::below : Inside::above);
-  if (!invert) return side;
+  const Inside side = choice.inside.value_or(distance ? Inside::below : Inside::above);
+  if (!choice.invert) return side;
   return side == Inside::above ? Inside::below : Inside::above;
 }
 
-Border choose_border(std::optional<Border> asked, const Volume& volume) {
-  return asked.value_or(volume.border.value_or(Border::open));
+Border choose_border(const SurfaceChoice& choice, const Volume& volume) {
+  return choice.border.value_or(volume.border.value_or(Border::open));
 }
 
-std::string iso_text(double value, SampleType type) {
-  return has_float_samples(type) ? fmt::format("{}", static_cast<float>(value))
-                                 : fmt::format("{}", value);
+}  // namespace mc::conversion
+
+namespace mc {
+
+Surface default_surface(const Volume& volume, const FieldStatistics* statistics) {
+  return {{conversion::default_iso(volume, statistics)},
+          conversion::choose_inside({}, volume),
+          conversion::choose_border({}, volume)};
+}
+
+std::string value_text(double value, SampleType type) {
+  return conversion::has_float_samples(type) ? fmt::format("{}", static_cast<float>(value))
+                                             : fmt::format("{}", value);
 }
 
 const char* name_of(Inside inside) { return inside == Inside::above ? "above" : "below"; }
 
-const char* name_of(Border border) {
-  switch (border) {
-    case Border::open:
-      return "open";
-    case Border::closed:
-      return "closed";
-    case Border::solid:
-      return "solid";
-  }
-  return "open";
-}
+const char* name_of(Border border) { return field::border_name(border); }
 
-}  // namespace mc::cli
+}  // namespace mc

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "convert/mesh_run.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "convert/notes.hpp"
+#include "convert/output_frame.hpp"
+#include "convert/output_probe.hpp"
+#include "convert/provenance.hpp"
+#include "convert/surface_choice.hpp"
+#include "mc/host.hpp"
+
+namespace mc::conversion {
+
+namespace {
+
+std::uint64_t sample_bytes(const VolumeReader& reader) {
+  const Volume& volume = volume_of(reader);
+  const std::uint64_t each = sample_size(volume.type);
+  if (const auto* sparse = std::get_if<std::unique_ptr<LeafReader>>(&reader)) {
+    return (*sparse)->leaves().size() * LeafReader::kLeafSamples * each;
+  }
+  std::uint64_t n = each;
+  for (int a = 0; a < 3; ++a) n *= static_cast<std::uint64_t>(volume.lattice.box.extent(a));
+  return n;
+}
+
+/// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
+CountFirst counting_of(const VolumeReader& reader) {
+  if (!is_dense(reader)) return CountFirst::yes;
+  const auto* slabs = std::get_if<std::unique_ptr<SlabReader>>(&reader);
+  return slabs != nullptr && (*slabs)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
+}
+
+}  // namespace
+
+MeshRun::MeshRun(const std::string& output, const ConvertOptions& options, Progress& progress,
+                 const std::stop_token& stop, ConvertReport& report)
+    : output_(output),
+      options_(options),
+      format_(output_format(output, options.sink)),
+      progress_(progress),
+      stop_(stop),
+      report_(report) {
+  report_.format = format_.name;
+}
+
+template <class Work>
+void MeshRun::timed(const char* stage, Work&& work) {
+  const auto began = std::chrono::steady_clock::now();
+  report_.stages.push_back({stage, 0, std::nullopt});
+  const std::size_t at = report_.stages.size() - 1;
+  work();
+  progress_.end_stage();
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began;
+  report_.stages[at].seconds = seconds.count();
+  if (source_ != nullptr) report_.stages[at].n_bytes = sample_bytes(reader());
+  progress_.detail(fmt::format("{}: {:.3f} s", stage, seconds.count()));
+}
+
+void MeshRun::use(const Source& source) {
+  source_ = &source;
+  report_.input = source.place;
+  report_.volume = volume();
+}
+
+void MeshRun::open(std::span<const std::string> inputs) {
+  SourceOptions options = options_.source;
+  options.streams = true;
+  options.memory_bytes = options_.memory_bytes;
+  timed("open", [&] { use(opened_.emplace(open_source(inputs, options, progress_))); });
+  note_chosen_grid(*source_, options, progress_);
+}
+
+Normals MeshRun::normals() const {
+  return options_.normals.value_or(format_.has_normals ? Normals::gradient : Normals::none);
+}
+
+/// The volume's, where the output can hold them.
+const MaterialReader* MeshRun::materials() const {
+  return format_.holds_materials ? materials_of(reader()) : nullptr;
+}
+
+void MeshRun::place_mesh() {
+  check_region(reader(), options_.extract.region);
+  if (materials_of(reader()) != nullptr && !format_.holds_materials) {
+    progress_.note(fmt::format(
+        "{} holds no materials, so they are left out; write ply, glb or gltf", report_.format));
+  }
+  report_.frame = output_frame(volume(), options_.frame, format_);
+  const Affine& to_world = report_.frame->to_world;
+  const RoundingLoss loss = rounding_loss(box(), to_world, Precision::f32);
+  needs_ = format_.needs(options_.sink, loss.matters);
+  check_told_apart(source_->place, box(), to_world, needs_,
+                   options_.source.spacing || options_.source.origin);
+  if (!loss.matters || needs_.relative_origin) return;
+  if (needs_.precision == Precision::f64) {
+    progress_.note(fmt::format("coordinates are doubles: float would move vertices by up to {:.3g}",
+                               loss.largest_move));
+  } else {
+    progress_.warn(fmt::format(
+        "{}: float coordinates move vertices by up to {:.3g}, more than 1/8192 of a cell; "
+        "ply or glb keep them in place",
+        report_.format, loss.largest_move));
+  }
+}
+
+FieldStatistics MeshRun::measure(std::span<const double> percentiles) {
+  FieldStatistics statistics;
+  timed("statistics", [&] {
+    statistics = measure_field(reader(), percentiles, progress_, stop_, options_.memory_bytes);
+  });
+  return statistics;
+}
+
+/// One pass is enough for one iso that is known, over all planes; else a stream is copied first.
+void MeshRun::spool_if_read_again() {
+  if (!opened_ || !is_stream(opened_->reader)) return;
+  const std::vector<IsoChoice>& isos = options_.surface.isos;
+  const bool again = isos.size() > 1 || options_.extract.region;
+  if (iso_needs_data(isos, volume()) || (again && !options_.dry_run)) {
+    timed("spool", [&] { spool_stream(opened_->reader, progress_); });
+  }
+}
+
+/// An output that cannot be written is found before the data are read for the iso.
+void MeshRun::probe_output() const {
+  if (can_be_probed(output_)) open_mesh_sink(output_, options_.sink);
+}
+
+void MeshRun::choose_surface() {
+  const SurfaceChoice& choice = options_.surface;
+  surface_.inside = choose_inside(choice, volume());
+  surface_.border = choose_border(choice, volume());
+  report_.surface = surface_;
+  if (iso_needs_data(choice.isos, volume()) && !options_.dry_run) probe_output();
+  spool_if_read_again();
+  surface_.isos =
+      choose_isos(choice.isos, volume(), source_->place,
+                  [&](std::span<const double> percentiles) { return measure(percentiles); });
+  note_isos(surface_, volume().type, progress_);
+}
+
+RunOptions MeshRun::run_options(double iso) const {
+  RunOptions options;
+  options.extract = options_.extract;
+  options.extract.iso = iso;
+  options.extract.inside = surface_.inside;
+  options.extract.border = surface_.border;
+  options.extract.normals = normals();
+  options.extract.precision = needs_.precision;
+  const Affine& to_world = report_.frame->to_world;
+  if (needs_.relative_origin) options.extract.origin = double_origin(box(), to_world);
+  options.object.iso = iso;
+  options.object.name = surface_.isos.size() == 1 && !volume().name.empty()
+                            ? volume().name
+                            : fmt::format("iso {}", value_text(iso, volume().type));
+  options.object.has_normals = options.extract.normals != Normals::none;
+  options.object.precision = needs_.precision;
+  options.object.origin = options.extract.origin;
+  options.materials = materials();
+  options.memory_bytes = options_.memory_bytes;
+  options.count_first = counting_of(reader());
+  options.skip = options_.skip;
+  options.formatted = needs_.formatted;
+  options.to_world = to_world;
+  return options;
+}
+
+SinkOptions MeshRun::sink_options() const {
+  SinkOptions options = options_.sink;
+  options.to = report_.format;
+  options.progress = &progress_;
+  options.provenance = provenance_of(volume(), surface_, *report_.frame, format_);
+  return options;
+}
+
+/// The engine has not looked at the values; whoever asked for this iso needs their range.
+void MeshRun::refuse_empty(double iso) {
+  const auto* stream = std::get_if<std::unique_ptr<PlaneStream>>(&reader());
+  const FieldStatistics statistics = stream != nullptr ? (*stream)->statistics() : measure({});
+  const SampleType type = volume().type;
+  const std::string value = value_text(iso, type);
+  if (statistics.n_nan + statistics.n_infinite == statistics.n_samples) {
+    throw Error(ErrorKind::empty, source_->place,
+                fmt::format("no surface at iso {}: none of the {} samples is a finite number",
+                            value, statistics.n_samples));
+  }
+  const std::string fault =
+      fmt::format("no surface at iso {}: the data lie in [{}, {}]", value,
+                  value_text(statistics.min, type), value_text(statistics.max, type));
+  if (statistics.min == statistics.max) {
+    throw Error(ErrorKind::empty, source_->place, fault, "all samples are the same");
+  }
+  throw Error(ErrorKind::empty, source_->place, fault, Remedy::choose_iso);
+}
+
+MeshTotals MeshRun::run_one(double iso, MeshSink& sink) {
+  RunOptions options = run_options(iso);
+  options.tell_need = options_.on_memory_need;
+  try {
+    return mc::run(reader(), options, options_.allow_empty, sink, progress_, stop_);
+  } catch (const Error& e) {
+    if (e.kind() != ErrorKind::empty) throw;
+  }
+  refuse_empty(iso);
+}
+
+void MeshRun::report_totals(const MeshTotals& totals) const {
+  if (surface_.border == Border::open && !options_.surface.border && totals.n_boundary_edges != 0) {
+    progress_.note_remedy(fmt::format("the mesh is open at the volume's border: {} boundary edges",
+                                      totals.n_boundary_edges),
+                          Remedy::close_border);
+  }
+  if (totals.n_materials_held != 0) {
+    progress_.warn(fmt::format(
+        "{}: {} of {} vertices have a material that is no number from 0 to 65535: the nearest is "
+        "taken, 0 for NaN",
+        source_->place, totals.n_materials_held, totals.n_vertices));
+  }
+  progress_.detail(
+      fmt::format("{}: {} vertices, {} triangles", output_, totals.n_vertices, totals.n_triangles));
+  if (totals.n_skipped == 0) return;
+  progress_.detail(fmt::format(
+      "skipped {} of {} samples, far from the surface ({:.1f} %)", totals.n_skipped, totals.n_asked,
+      100 * static_cast<double>(totals.n_skipped) / static_cast<double>(totals.n_asked)));
+}
+
+void MeshRun::write() {
+  timed("extract", [&] {
+    const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
+    for (const Iso& iso : surface_.isos) report_.totals.push_back(run_one(iso.value, *sink));
+    refuse_changed_inputs();
+    sink->finish();
+  });
+  for (const MeshTotals& totals : report_.totals) report_totals(totals);
+}
+
+void MeshRun::run(const std::optional<Surface>& surface) {
+  place_mesh();
+  check_memory(reader(), run_options(0));
+  if (surface) {
+    surface_ = *surface;
+  } else {
+    choose_surface();
+  }
+  report_.surface = surface_;
+  if (options_.dry_run) {
+    report_.memory = memory_needed(reader(), run_options(surface_.isos.front().value));
+  } else {
+    write();
+  }
+}
+
+}  // namespace mc::conversion

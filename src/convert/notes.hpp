@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "mc/convert.hpp"
+
+// What every conversion notes about its choices.
+
+namespace mc::conversion {
+
+/// Notes which of several grids was taken, unless the caller named one.
+void note_chosen_grid(const Source& source, const SourceOptions& options, Progress& progress);
+/// Notes each isovalue, and why it is that one.
+void note_isos(const Surface& surface, SampleType type, Progress& progress);
+
+}  // namespace mc::conversion

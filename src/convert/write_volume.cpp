@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cassert>
+#include <memory>
+
+#include "convert/planes_per_read.hpp"
+#include "convert/provenance.hpp"
+#include "mc/convert.hpp"
+#include "mc/host.hpp"
+
+// Plane by plane, or whole where both ends are sparse.
+
+namespace mc {
+
+namespace {
+
+/// Where planes go, and within what.
+struct Target {
+  VolumeSink& sink;
+  const std::string& output;
+  std::uint64_t memory_bytes;
+  Progress& progress;
+  const std::stop_token& stop;
+};
+
+/// All planes of a reader or stream, in order; the sink has begun.
+template <class Planes>
+void write_planes(Planes& planes, std::uint64_t held_bytes, const Target& to) {
+  const Volume& volume = planes.volume();
+  const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
+  const std::int32_t step =
+      conversion::planes_per_read(volume, memory_beside(held_bytes, to.memory_bytes), to.output);
+  to.progress.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
+  Slab slab;
+  for (std::int32_t k = 0; k < n_planes; k += step) {
+    if (to.stop.stop_requested()) throw Cancelled();
+    const std::int32_t end = std::min(n_planes, k + step);
+    planes.read(k, end, slab);
+    to.sink.write(slab);
+    to.progress.advance(static_cast<std::uint64_t>(end - k));
+  }
+}
+
+void write_all(const SlabReader& reader, const Target& to) {
+  to.sink.begin(reader.volume());
+  write_planes(reader, reader.held_bytes(), to);
+}
+
+void write(const SlabReader& reader, const std::optional<IndexBox>& region, const Target& to) {
+  if (region) {
+    write_all(*crop_view(reader, *region), to);
+  } else {
+    write_all(reader, to);
+  }
+}
+
+void write(PlaneStream& stream, [[maybe_unused]] const std::optional<IndexBox>& region,
+           const Target& to) {
+  assert(!region);
+  to.sink.begin(stream.volume());
+  write_planes(stream, 0, to);
+}
+
+void write(const LeafReader& reader, const std::optional<IndexBox>& region, const Target& to) {
+  if (region) return write_all(*dense_view(reader, *region), to);
+  to.sink.begin(reader.volume());
+  if (to.sink.write_sparse(reader)) return;
+  const auto view = dense_view(reader, reader.volume().lattice.box);
+  write_planes(*view, view->held_bytes(), to);
+}
+
+}  // namespace
+
+void write_volume(const VolumeReader& from, const std::string& output, const VolumeOptions& options,
+                  Progress& progress, const std::stop_token& stop) {
+  check_region(from, options.region);
+  SinkOptions into = options.sink;
+  into.progress = &progress;
+  into.provenance.push_back(conversion::generator());
+  const std::unique_ptr<VolumeSink> sink = open_volume_sink(output, into);
+  const Target to{*sink, output, options.memory_bytes, progress, stop};
+  std::visit([&](const auto& reader) { write(*reader, options.region, to); }, from);
+  refuse_changed_inputs();
+  sink->finish();
+  progress.end_stage();
+}
+
+}  // namespace mc
