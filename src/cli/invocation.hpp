@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "cli/console.hpp"
-#include "cli/failure.hpp"
+#include "cli/messages/console.hpp"
+#include "cli/messages/failure.hpp"
 
 // What every command is handed, and the commands.
 

@@ -10,12 +10,12 @@
 #include <utility>
 
 #include "base/text.hpp"
-#include "cli/args.hpp"
-#include "cli/command_line.hpp"
-#include "cli/help.hpp"
+#include "cli/arguments/args.hpp"
+#include "cli/arguments/command_line.hpp"
+#include "cli/arguments/values.hpp"
 #include "cli/invocation.hpp"
+#include "cli/messages/help.hpp"
 #include "cli/signals.hpp"
-#include "cli/values.hpp"
 #include "extract/simd_target.hpp"
 #include "mc/base.hpp"
 

@@ -2,9 +2,9 @@
 #include <fstream>
 
 #include "base/parallel.hpp"
-#include "cli/bench_bandwidth.hpp"
-#include "cli/bench_field.hpp"
-#include "cli/bench_surface.hpp"
+#include "cli/bench/bench_bandwidth.hpp"
+#include "cli/bench/bench_field.hpp"
+#include "cli/bench/bench_surface.hpp"
 #include "mc/pipe.hpp"
 #include "mc/source.hpp"
 #include "peer.hpp"

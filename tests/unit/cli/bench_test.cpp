@@ -7,10 +7,10 @@
 #include <cstring>
 
 #include "base/parallel.hpp"
-#include "cli/bench_field.hpp"
-#include "cli/bench_memory.hpp"
-#include "cli/bench_rounds.hpp"
-#include "cli/bench_surface.hpp"
+#include "cli/bench/bench_field.hpp"
+#include "cli/bench/bench_memory.hpp"
+#include "cli/bench/bench_rounds.hpp"
+#include "cli/bench/bench_surface.hpp"
 
 namespace mc::cli {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cli/format_lists.hpp"
+#include "cli/arguments/format_lists.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "cli/help.hpp"
+#include "cli/messages/help.hpp"
 #include "convert/chunk_writer.hpp"
 
 namespace mc::cli {

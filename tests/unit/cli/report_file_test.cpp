@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/report_file.hpp"
+#include "cli/messages/report_file.hpp"
 
 #include <gtest/gtest.h>
 

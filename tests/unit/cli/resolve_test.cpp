@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "cli/resolve.hpp"
+#include "cli/arguments/resolve.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/command_line.hpp"
+#include "cli/arguments/command_line.hpp"
 #include "support/usage_error.hpp"
 
 namespace mc::cli {

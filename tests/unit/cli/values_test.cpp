@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cli/values.hpp"
+#include "cli/arguments/values.hpp"
 #include "base/machine_memory.hpp"
 
 #include <gmock/gmock.h>

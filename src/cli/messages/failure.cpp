@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "cli/messages/failure.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <new>
+#include <string_view>
+#include <system_error>
+
+#include "cli/messages/remedy.hpp"
+#include "mc/host.hpp"
+
+namespace mc::cli {
+
+namespace {
+
+/// Whatever went wrong: where an input changed meanwhile, that is what is to be told.
+void run_on_inputs(const std::function<void()>& work) {
+  const InputWatch inputs;
+  try {
+    work();
+  } catch (const Cancelled&) {
+    throw;
+  } catch (...) {
+    inputs.refuse_changed();
+    throw;
+  }
+}
+
+Failure out_of_memory() {
+  return {static_cast<int>(ErrorKind::limit),
+          {"out of memory: the run needs more than this machine gives; "
+           "try --region or --threads 1"}};
+}
+
+Failure internal_fault(std::string_view what) {
+  return {static_cast<int>(ErrorKind::internal),
+          {fmt::format("internal fault: {}; please report it", what)}};
+}
+
+/// An error's lines, with the option that remedies it.
+std::vector<std::string> lines_of(const Error& e) {
+  if (e.remedy() == Remedy::none) return e.lines();
+  return {with_remedy(e.what(), e.remedy())};
+}
+
+}  // namespace
+
+std::optional<Failure> attempt(const std::function<void()>& work) {
+  try {
+    run_on_inputs(work);
+    return std::nullopt;
+  } catch (const Error& e) {
+    return Failure{static_cast<int>(e.kind()), lines_of(e)};
+  } catch (const Cancelled&) {
+    // Only a signal asks for it, and the signal ends the process a moment later.
+    return Failure{128 + SIGINT, {}};
+  } catch (const std::bad_alloc&) {
+    return out_of_memory();
+  } catch (const std::system_error& e) {
+    if (e.code() == std::errc::resource_unavailable_try_again) return out_of_memory();  // a thread
+    return internal_fault(e.what());
+  } catch (const std::exception& e) {
+    return internal_fault(e.what());
+  } catch (...) {
+    return internal_fault("unknown exception");
+  }
+}
+
+}  // namespace mc::cli
