@@ -71,6 +71,15 @@ std::uint64_t machine_bytes() {
   return std::min(installed, group_limit_bytes(text_of("/proc/self/cgroup"), "/sys/fs/cgroup"));
 }
 
+std::uint64_t available_bytes() {
+  std::ifstream file("/proc/meminfo");
+  for (std::string key, rest; file >> key; std::getline(file, rest)) {
+    std::uint64_t kibibytes = 0;
+    if (key == "MemAvailable:" && file >> kibibytes) return kibibytes * 1024;
+  }
+  return machine_bytes();
+}
+
 std::uint64_t default_budget_bytes() { return std::min(kMostBudget, machine_bytes() / 4); }
 
 std::uint64_t resident_bytes() {

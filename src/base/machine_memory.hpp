@@ -19,6 +19,9 @@ namespace mc::base {
 /// folder where the groups are mounted. No limit: all ones.
 [[nodiscard]] std::uint64_t group_limit_bytes(std::string_view groups, const std::string& root);
 
+/// Bytes that the system would give now without swapping; where it does not say, machine_bytes().
+[[nodiscard]] std::uint64_t available_bytes();
+
 /// "512 B", "40.0 MiB".
 [[nodiscard]] std::string size_text(std::uint64_t n_bytes);
 

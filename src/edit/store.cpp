@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include <unistd.h>
-
 #include <algorithm>
 #include <cassert>
 #include <limits>
 #include <utility>
 
+#include "base/machine_memory.hpp"
 #include "edit/box_list.hpp"
 #include "edit/brush_pass.hpp"
 #include "edit/edited_materials.hpp"
@@ -22,14 +21,6 @@ namespace {
 
 using edit::BrushPass;
 using edit::Stroke;
-
-std::uint64_t machine_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES);
-  const long page = sysconf(_SC_PAGESIZE);
-  return pages > 0 && page > 0
-             ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page)
-             : std::numeric_limits<std::uint64_t>::max();
-}
 
 }  // namespace
 
@@ -74,7 +65,7 @@ struct EditStore::State {
   EditRules rules;
   edit::History history;
   std::vector<IndexBox> dirty;
-  std::uint64_t memory_bytes = machine_memory();
+  std::uint64_t memory_bytes = base::machine_bytes();
   mutable std::optional<Volume> volume;  // unset: to be found again
 };
 

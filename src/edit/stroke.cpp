@@ -94,7 +94,7 @@ Turn facing(const Vec3& n) {
   x = moved(x, n, -n[a]);
   const double scale = length(x);
   for (double& v : x) v /= scale;
-  const Vec3 z{x[1] * n[2] - x[2] * n[1], x[2] * n[0] - x[0] * n[2], x[0] * n[1] - x[1] * n[0]};
+  const Vec3 z = cross(x, n);
   return {{x[0], n[0], z[0], x[1], n[1], z[1], x[2], n[2], z[2]}};
 }
 

@@ -2,13 +2,12 @@
 #include "cli/bench/bench_plan.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <utility>
 
+#include "base/machine_memory.hpp"
 #include "base/parallel.hpp"
 #include "cli/arguments/resolve.hpp"
 #include "cli/arguments/values.hpp"
@@ -60,19 +59,6 @@ void refuse_beside_noise(const BenchArgs& args) {
   }
 }
 
-/// What the kernel would give without swapping; where it does not say, what is installed.
-double free_bytes() {
-  std::ifstream file("/proc/meminfo");
-  for (std::string key, unit; file >> key;) {
-    double kibibytes = 0;
-    file >> kibibytes;
-    if (key == "MemAvailable:") return kibibytes * 1024;
-    std::getline(file, unit);
-  }
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) *
-         static_cast<double>(::sysconf(_SC_PAGESIZE));
-}
-
 }  // namespace
 
 BenchPlan resolve(const BenchArgs& args) {
@@ -103,7 +89,7 @@ double bench_bytes(const BenchPlan& plan) {
 
 void check_bench_memory(const BenchPlan& plan) {
   const double needed = bench_bytes(plan);
-  const double available = free_bytes();
+  const auto available = static_cast<double>(base::available_bytes());
   if (needed <= available) return;
   throw Error(ErrorKind::limit, "--size",
               fmt::format("this benchmark needs about {:.1f} GiB, but {:.1f} GiB are free",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/vectors.hpp"
 #include "field/visit_type.hpp"
 
 // Wrong and fast is void: a mesh is proven before it is timed, with nothing of the engine's.
@@ -112,12 +113,6 @@ std::string normal_fault(const Mesh& mesh) {
   return {};
 }
 
-using Corner = std::array<double, 3>;
-
-Corner cross(const Corner& a, const Corner& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 }  // namespace
 
 BenchSurface::BenchSurface(const BenchVolume& volume, Normals normals)
@@ -153,14 +148,14 @@ std::string fault_of_sphere(const Mesh& mesh, std::int32_t n, SampleType type) {
   double area = 0;
   double volume = 0;
   for (const auto& triangle : mesh.triangles) {
-    std::array<Corner, 3> p;
+    std::array<Vec3, 3> p;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto& at = mesh.positions[triangle[c]];
       p[c] = {at[0], at[1], at[2]};
     }
-    const Corner u{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
-    const Corner v{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-    const Corner w = cross(u, v);
+    const Vec3 u{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
+    const Vec3 v{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
+    const Vec3 w = cross(u, v);
     area += std::hypot(w[0], w[1], w[2]) / 2;
     volume += (p[0][0] * w[0] + p[0][1] * w[1] + p[0][2] * w[2]) / 6;
   }

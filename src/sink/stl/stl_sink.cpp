@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/vectors.hpp"
 #include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
@@ -37,19 +38,14 @@ using Ids = std::array<std::uint32_t, 3>;
 
 /// Unit normal by the right hand, zero where the facet has no area or is not finite.
 Triple facet_normal(const Facet& corner) {
-  Vec3 u{}, v{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    u[a] = static_cast<double>(corner[1][a]) - static_cast<double>(corner[0][a]);
-    v[a] = static_cast<double>(corner[2][a]) - static_cast<double>(corner[0][a]);
-  }
-  const Vec3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  if (!(length > 0) || !std::isfinite(length)) {
-    return {};
-  }
+  const auto widened = [](const Triple& p) { return Vec3{p[0], p[1], p[2]}; };
+  const Vec3 first = widened(corner[0]);
+  const Vec3 n = cross(minus(widened(corner[1]), first), minus(widened(corner[2]), first));
+  const double area = length(n);  // of the parallelogram
+  if (!(area > 0) || !std::isfinite(area)) return {};
   Triple unit{};
   for (std::size_t a = 0; a < 3; ++a) {
-    unit[a] = static_cast<float>(n[a] / length) + 0.0F;  // no negative zero
+    unit[a] = static_cast<float>(n[a] / area) + 0.0F;  // no negative zero
   }
   return unit;
 }
