@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/runner.hpp"
+#include "base/simd_target.hpp"
 
 #include <fmt/format.h>
 
@@ -16,7 +17,6 @@
 #include "cli/invocation.hpp"
 #include "cli/messages/help.hpp"
 #include "cli/signals.hpp"
-#include "extract/simd_target.hpp"
 #include "mc/base.hpp"
 
 // Finds the command and runs it; what it throws ends here.
@@ -40,10 +40,10 @@ constexpr std::array<std::pair<std::string_view, Command>, 8> kCommands{
 void obey_simd_environment() {
   const char* name = std::getenv("MC_SIMD");
   if (name == nullptr || *name == '\0') return;
-  if (!extraction::set_simd_target(name)) {
+  if (!base::set_simd_target(name)) {
     throw Error(ErrorKind::usage, "MC_SIMD",
                 fmt::format("this machine or build has no target '{}': expected {}", name,
-                            fmt::join(extraction::simd_targets(), ", ")));
+                            fmt::join(base::simd_targets(), ", ")));
   }
 }
 

@@ -11,10 +11,6 @@
 #include "extract/row_kernels-inl.hpp"
 
 #if HWY_ONCE
-#include <array>
-#include <utility>
-
-#include "extract/simd_target.hpp"
 
 namespace mc::extraction {
 
@@ -26,18 +22,6 @@ HWY_EXPORT(list_between);
 HWY_EXPORT(emit_triangles);
 HWY_EXPORT(count_triangles);
 HWY_EXPORT(count_face_sides);
-
-constexpr std::array<std::pair<std::string_view, std::int64_t>, 5> kTargets{
-    {{"avx3_dl", HWY_AVX3_DL},
-     {"avx3", HWY_AVX3},
-     {"avx2", HWY_AVX2},
-     {"sse4", HWY_SSE4},
-     {"ssse3", HWY_SSSE3}}};
-
-bool offered(std::int64_t target) { return (hwy::SupportedTargets() & HWY_TARGETS & target) != 0; }
-
-// What runs; the process's one choice, like Highway's own, which does not tell.
-std::string_view forced;
 }  // namespace
 
 std::uint32_t number_plane(const BitPlane& plane, std::uint32_t next, const PlaneIds& ids) {
@@ -72,42 +56,6 @@ std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
 std::uint64_t count_face_sides(const std::uint64_t* a, const std::uint64_t* b,
                                const std::uint64_t* cells, std::size_t n_words) {
   return HWY_DYNAMIC_DISPATCH(count_face_sides)(a, b, cells, n_words);
-}
-
-bool set_simd_target(std::string_view name) {
-  if (name == "scalar") {
-    hwy::GetChosenTarget().Update(0);  // leaves only the fallback, our own plain rows
-    forced = "scalar";
-    return true;
-  }
-  for (const auto& [known, target] : kTargets) {
-    if (known == name && offered(target)) {
-      hwy::GetChosenTarget().Update(target);
-      forced = known;
-      return true;
-    }
-  }
-  return false;
-}
-
-void reset_simd_target() {
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  forced = {};
-}
-
-std::string simd_target_name() {
-  return std::string(forced.empty() ? simd_targets().front() : forced);
-}
-
-std::vector<std::string> simd_targets() {
-  std::vector<std::string> names;
-  for (const auto& [known, target] : kTargets) {
-    if (offered(target)) {
-      names.emplace_back(known);
-    }
-  }
-  names.emplace_back("scalar");
-  return names;
 }
 
 }  // namespace mc::extraction

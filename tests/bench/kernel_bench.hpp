@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 
 // What the benchmarks of kernels share: each is run on every SIMD target of this machine, and on
 // each is first compared with a plain twin; a kernel that differs is reported and not timed.
@@ -23,9 +23,9 @@ using Kernel = std::function<void()>;
 /// samples); `right` says whether the kernel's result, once it has run, is that of its twin.
 inline void add_kernel(const std::string& name, const std::string& items, double n_items,
                        const Kernel& kernel, const std::function<bool()>& right) {
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     benchmark::RegisterBenchmark((name + "/" + target).c_str(), [=](benchmark::State& state) {
-      extraction::set_simd_target(target);
+      base::set_simd_target(target);
       kernel();
       if (!right()) state.SkipWithError("differs from its plain twin");
       for ([[maybe_unused]] auto _ : state) {
@@ -34,7 +34,7 @@ inline void add_kernel(const std::string& name, const std::string& items, double
       }
       state.counters[items + "/s"] = benchmark::Counter(
           n_items * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-      extraction::reset_simd_target();
+      base::reset_simd_target();
     })->Unit(benchmark::kMicrosecond);
   }
 }

@@ -15,7 +15,7 @@
 // them.
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const std::vector<std::string> all = mc::extraction::simd_targets();
+  static const std::vector<std::string> all = mc::base::simd_targets();
 #ifdef MC_FUZZ
   const std::uint64_t hash = mc::base::hash_on(size, std::as_bytes(std::span(data, size)));
   const std::size_t first = hash % all.size();

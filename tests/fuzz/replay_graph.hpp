@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "source/spec/spec.hpp"
 #include "support/random_spec.hpp"
 
@@ -53,7 +53,7 @@ inline bool replay_graph(std::span<const std::uint8_t> bytes,
   std::vector<std::uint32_t> expected;
   std::optional<std::vector<std::uint32_t>> materials;
   for (const std::string& target : targets) {
-    extraction::set_simd_target(target);
+    base::set_simd_target(target);
     try {
       const auto reader = source::open_spec_text("random.json", text);
       const std::int32_t n_planes = reader->volume().lattice.dims()[2];
@@ -74,11 +74,11 @@ inline bool replay_graph(std::span<const std::uint8_t> bytes,
       if (std::string_view(error.what()).find("expand to more") == std::string_view::npos) {
         throw std::logic_error(std::string(error.what()) + " in " + text);
       }
-      extraction::reset_simd_target();
+      base::reset_simd_target();
       return false;
     }
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
   return true;
 }
 

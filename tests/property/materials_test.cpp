@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "source/spec/spec.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_graphs.hpp"
@@ -71,12 +71,12 @@ TEST(Materials, DoNotDependOnThreadsSlabsOrTarget) {
   EXPECT_GT(first.totals.n_materials_held, 0U);
   EXPECT_LT(first.totals.n_materials_held, first.materials.size());
   for (const How& how : kHows) expect_same_materials(collect(reader, options, how), first);
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     SCOPED_TRACE(target);
-    ASSERT_TRUE(extraction::set_simd_target(target));
+    ASSERT_TRUE(base::set_simd_target(target));
     expect_same_materials(collect(reader, options), first);
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 }  // namespace

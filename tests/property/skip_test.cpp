@@ -7,7 +7,7 @@
 #include <cstring>
 #include <random>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_graphs.hpp"
 
@@ -224,12 +224,12 @@ TEST(Skip, DoesNotShowOnAnyTarget) {
     const ExtractOptions options = scene.options;
     const VolumeReader reader = owned(std::move(scene.reader));
     const Collected whole = collect(reader, options, {.skip = false});
-    for (const std::string& target : extraction::simd_targets()) {
+    for (const std::string& target : base::simd_targets()) {
       SCOPED_TRACE(target);
-      ASSERT_TRUE(extraction::set_simd_target(target));
+      ASSERT_TRUE(base::set_simd_target(target));
       expect_same(collect(reader, options), whole);
     }
-    extraction::reset_simd_target();
+    base::reset_simd_target();
   }
 }
 

@@ -34,7 +34,7 @@ std::uint32_t n_documents() {
 }
 
 TEST(RandomSpecs, LoadAndGiveTheSameBitsOnEveryTarget) {
-  const std::vector<std::string> targets = extraction::simd_targets();
+  const std::vector<std::string> targets = base::simd_targets();
   const std::uint32_t n = n_documents();
   std::uint32_t n_sampled = 0;
   for (std::uint32_t seed = 0; seed < n; ++seed) {

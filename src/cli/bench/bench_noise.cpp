@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/bench/bench_noise.hpp"
+#include "base/simd_target.hpp"
 
 #include <array>
 #include <cstddef>
@@ -7,7 +8,6 @@
 #include <utility>
 
 #include "cli/bench/bench_field.hpp"
-#include "extract/simd_target.hpp"
 #include "graph/rows.hpp"
 #include "mc/graph.hpp"
 #include "mc/pipe.hpp"
@@ -152,9 +152,9 @@ std::vector<NoiseResult> measure_noises(std::int32_t n, const RoundLimits& limit
   std::vector<TimedBody> timed{{1, count_cycles}};
   for (const NoiseBody& b : bodies) timed.push_back(b.body);
   std::vector<NoiseResult> results;
-  const std::string before = extraction::simd_target_name();
-  for (const std::string& target : extraction::simd_targets()) {
-    extraction::set_simd_target(target);
+  const std::string before = base::simd_target_name();
+  for (const std::string& target : base::simd_targets()) {
+    base::set_simd_target(target);
     const std::vector<Timing> timings = time_rounds(timed, limits);
     const double clock = static_cast<double>(kSteps) / timings[0].least;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -162,7 +162,7 @@ std::vector<NoiseResult> measure_noises(std::int32_t n, const RoundLimits& limit
           {bodies[b].name, target, bodies[b].n_points, timings[b + 1], clock, bodies[b].published});
     }
   }
-  extraction::set_simd_target(before);
+  base::set_simd_target(before);
   return results;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cli/bench/bench_report.hpp"
+#include "base/simd_target.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/bench/bench_field.hpp"
-#include "extract/simd_target.hpp"
 
 namespace mc::cli {
 
@@ -95,7 +95,7 @@ std::string bench_head_text(const BenchPlan& plan) {
   return fmt::format(
       "mc {}, {}, simd {}\n"
       "medians of {} rounds or more, {}^3 samples of {}, normals: {}\n",
-      MC_VERSION, processor_name(), extraction::simd_target_name(), plan.limits.min_rounds,
+      MC_VERSION, processor_name(), base::simd_target_name(), plan.limits.min_rounds,
       plan.n_samples, sample_name(plan.type), normals_name(plan.normals));
 }
 
@@ -145,7 +145,7 @@ std::string to_json(const BenchPlan& plan, const std::vector<Bandwidth>& bandwid
                     const std::vector<DemoResult>& demo, const std::vector<FieldResult>& fields) {
   Json json{{"mc", MC_VERSION},
             {"processor", processor_name()},
-            {"simd", extraction::simd_target_name()},
+            {"simd", base::simd_target_name()},
             {"size", plan.n_samples},
             {"type", sample_name(plan.type)},
             {"normals", normals_name(plan.normals)}};

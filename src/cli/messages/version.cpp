@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "base/parallel.hpp"
+#include "base/simd_target.hpp"
 #include "cli/arguments/format_lists.hpp"
 #include "cli/invocation.hpp"
-#include "extract/simd_target.hpp"
 
 // `mc --version -v`: what to quote when reporting a bug.
 
@@ -78,8 +78,8 @@ std::string version_text(bool verbose) {
   }
   if (MC_WITH_GZIP == 0) text += "without  gzip (build with zlib1g-dev)\n";
   if (MC_WITH_ZSTD == 0) text += "without  zstd (build with libzstd-dev)\n";
-  text += fmt::format("simd     {} (of {})\n", extraction::simd_target_name(),
-                      fmt::join(extraction::simd_targets(), " "));
+  text += fmt::format("simd     {} (of {})\n", base::simd_target_name(),
+                      fmt::join(base::simd_targets(), " "));
   text += fmt::format("threads  {} ({})\n", base::thread_count(), MC_THREADS_BACK_END);
   return text;
 }

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "mc/extract.hpp"
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
@@ -158,9 +158,9 @@ TEST(DenseEngineFloat, RowEndsAtEveryPlaceInAWord) {
 }
 
 TEST(DenseEngineFloat, EverySimdTargetGivesTheSameBytes) {
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     SCOPED_TRACE(target);
-    ASSERT_TRUE(extraction::set_simd_target(target));
+    ASSERT_TRUE(base::set_simd_target(target));
     compare_all<float>({70, 5, 4}, {{1, 0, false}});
     compare_all<std::uint8_t>({133, 3, 3}, {{1, 0, false}});
     compare_all<std::int8_t>({133, 3, 3}, {{1, 0, false}});
@@ -172,8 +172,8 @@ TEST(DenseEngineFloat, EverySimdTargetGivesTheSameBytes) {
     compare_all<Half>({70, 3, 3}, {{1, 0, false}});
     compare_all<double>({70, 3, 3}, {{1, 0, false}});
   }
-  extraction::reset_simd_target();
-  EXPECT_FALSE(extraction::set_simd_target("neon9"));
+  base::reset_simd_target();
+  EXPECT_FALSE(base::set_simd_target("neon9"));
 }
 
 TEST(DenseEngineFloat, InterpolationOptions) {

@@ -7,8 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "base/simd_target.hpp"
 #include "extract/dense.hpp"
-#include "extract/simd_target.hpp"
 #include "support/memory_readers.hpp"
 #include "support/random_fields.hpp"
 #include "support/reference_extractor.hpp"
@@ -101,13 +101,13 @@ TYPED_TEST(DenseParts, EqualTheReference) {
 }
 
 TEST(DensePartsFloat, EverySimdTargetGivesTheSameBytes) {
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     SCOPED_TRACE(target);
-    ASSERT_TRUE(extraction::set_simd_target(target));
+    ASSERT_TRUE(base::set_simd_target(target));
     compare_parts<float>({40, 9, 7}, 300);
     compare_parts<std::uint8_t>({40, 9, 7}, 400);
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 TEST(DensePartsFloat, CountBoundaryEdgesOfEveryFaceThatIsNotCapped) {

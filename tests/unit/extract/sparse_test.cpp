@@ -6,7 +6,7 @@
 #include <map>
 #include <random>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_fields.hpp"
@@ -182,14 +182,14 @@ TEST(SparseEngine, EverySimdTargetGivesTheSameBytes) {
   const VolumeReader reader = owned(std::unique_ptr<LeafReader>(
       new MemoryLeaves(samples, dims, {0, 0, 0}, 0.F, Affine{}, MemoryLeaves::seeded(5))));
   const Collected want = collect(reader, o);
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     SCOPED_TRACE(target);
-    ASSERT_TRUE(extraction::set_simd_target(target));
+    ASSERT_TRUE(base::set_simd_target(target));
     const Collected got = collect(reader, o);
     EXPECT_EQ(got.mesh.positions, want.mesh.positions);
     EXPECT_EQ(got.mesh.triangles, want.mesh.triangles);
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 TEST(SparseEngine, RegionsEqualTheDenseEnginesRegions) {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "graph/float_math.hpp"
 #include "unit/graph/graph_support.hpp"
 
@@ -240,14 +240,14 @@ TEST(Graph, FormulasKeepTheirBitsOnEverySimdTarget) {
   const Golden golden[] = {
 #include "unit/graph/golden_bits.inc"
   };
-  for (const std::string& target : extraction::simd_targets()) {
-    ASSERT_TRUE(extraction::set_simd_target(target));
+  for (const std::string& target : base::simd_targets()) {
+    ASSERT_TRUE(base::set_simd_target(target));
     for (const Golden& g : golden) {
       const std::uint64_t hash = hash_bits(golden_values(g));
       EXPECT_EQ(hash, g.hash) << target << " " << g.name << " 0x" << std::hex << hash;
     }
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "graph/noise_range.hpp"
 #include "graph/rows.hpp"
 #include "support/cell_twins.hpp"
@@ -107,8 +107,8 @@ void expect_twins(const Rows& rows, std::size_t n, std::span<const Kernel> among
       wanted[i] = kernel.twin(rows[0][i] * 0.75F, rows[1][i] * 0.75F, rows[2][i] * 0.75F);
       ASSERT_FALSE(wanted[i] < range.lo || wanted[i] > range.hi) << kernel.name << wanted[i];
     }
-    for (const std::string& target : extraction::simd_targets()) {
-      ASSERT_TRUE(extraction::set_simd_target(target));
+    for (const std::string& target : base::simd_targets()) {
+      ASSERT_TRUE(base::set_simd_target(target));
       std::vector<float> out(kPiece);
       graph::any_row(kernel.instruction, rows[0].data(), rows[1].data(), rows[2].data(), n,
                      out.data());
@@ -119,7 +119,7 @@ void expect_twins(const Rows& rows, std::size_t n, std::span<const Kernel> among
       }
     }
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 /// Rows with room for whole vectors.

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "mesh/word_kernels.hpp"
 
 namespace mc::mesh {
@@ -16,8 +16,8 @@ namespace {
 TEST(MoveWords, IsAnAdditionOnEveryTarget) {
   std::vector<std::uint32_t> from(200);
   std::iota(from.begin(), from.end(), 0xFFFFFF80U);
-  for (const std::string& target : extraction::simd_targets()) {
-    ASSERT_TRUE(extraction::set_simd_target(target));
+  for (const std::string& target : base::simd_targets()) {
+    ASSERT_TRUE(base::set_simd_target(target));
     for (const Stores stores : {Stores::cached, Stores::streamed}) {
       for (std::size_t at = 0; at < 20; ++at) {
         for (const std::size_t n : {0U, 1U, 5U, 16U, 33U, 100U, 150U}) {
@@ -32,7 +32,7 @@ TEST(MoveWords, IsAnAdditionOnEveryTarget) {
       }
     }
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 MeshChunk chunk_of(std::size_t n_vertices, std::size_t n_triangles, float value) {

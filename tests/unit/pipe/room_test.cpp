@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "extract/simd_target.hpp"
+#include "base/simd_target.hpp"
 #include "mc/pipe.hpp"
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
@@ -143,12 +143,12 @@ TEST(Room, DenseMeshDoesNotShowItOnAnyTarget) {
   const Index3 dims{33, 9, 5};
   const auto samples = random_field<float>(dims, Noise::white, 11);
   const VolumeReader reader = owned(std::make_unique<MemorySlabs>(samples, dims));
-  for (const std::string& target : extraction::simd_targets()) {
+  for (const std::string& target : base::simd_targets()) {
     SCOPED_TRACE(target);
-    ASSERT_TRUE(extraction::set_simd_target(target));
+    ASSERT_TRUE(base::set_simd_target(target));
     compare(reader, row_bytes(dims[0]));
   }
-  extraction::reset_simd_target();
+  base::reset_simd_target();
 }
 
 TEST(Room, DenseMeshOfARegionDoesNotShowIt) {
