@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cli/runner.hpp"
-#include "base/simd_target.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/simd_target.hpp"
 #include "base/text.hpp"
 #include "cli/arguments/args.hpp"
 #include "cli/arguments/command_line.hpp"

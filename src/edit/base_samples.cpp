@@ -56,9 +56,9 @@ void swap_samples(std::span<std::byte> samples, std::size_t sample_bytes) {
 void transpose_block(const std::byte* in, std::byte* out, std::size_t sample_bytes) {
   visit_width(sample_bytes, [&]<class Bits>(Bits) {
     auto* to = reinterpret_cast<Bits*>(out);
-    for (std::size_t k = 0; k < kSide; ++k) {
-      for (std::size_t j = 0; j < kSide; ++j) {
-        for (std::size_t i = 0; i < kSide; ++i, ++to) {
+    for (std::size_t k = 0; k < kBlockSize; ++k) {
+      for (std::size_t j = 0; j < kBlockSize; ++j) {
+        for (std::size_t i = 0; i < kBlockSize; ++i, ++to) {
           *to = field::load_sample<Bits, false>(in + (i * 64 + j * 8 + k) * sizeof(Bits));
         }
       }
@@ -68,9 +68,9 @@ void transpose_block(const std::byte* in, std::byte* out, std::size_t sample_byt
 
 Mask512 transposed(const Mask512& mask) {
   Mask512 out{};
-  for (std::size_t k = 0; k < kSide; ++k) {
-    for (std::size_t j = 0; j < kSide; ++j) {
-      for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t k = 0; k < kBlockSize; ++k) {
+    for (std::size_t j = 0; j < kBlockSize; ++j) {
+      for (std::size_t i = 0; i < kBlockSize; ++i) {
         out[k] |= (mask[i] >> (j * 8 + k) & 1U) << (j * 8 + i);
       }
     }
@@ -169,7 +169,7 @@ void InputSamples::read_block(const Index3& block, std::byte* out) const {
   // A dense box starts at 0, so that only ends of blocks stick out.
   const auto ny = static_cast<std::size_t>(box.extent(1));
   for (std::size_t row = 0; row < n_rows; ++row) {
-    const std::size_t at = (row / ny * kSide + row % ny) * kSide * sample_bytes_;
+    const std::size_t at = (row / ny * kBlockSize + row % ny) * kBlockSize * sample_bytes_;
     std::memcpy(out + at, part.data() + row * row_bytes, row_bytes);
   }
 }

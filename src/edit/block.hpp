@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "field/block.hpp"
 #include "mc/field.hpp"
 
 // Blocks of 8x8x8 samples, x fastest, in the volume's type and native byte order: what a store
@@ -19,17 +20,16 @@
 
 namespace mc::edit {
 
-inline constexpr std::int32_t kSide = 8;
-inline constexpr std::size_t kBlockSamples = 512;
-
-/// A bit a sample: word k, bit 8 j + i.
-using Mask512 = std::array<std::uint64_t, kSide>;
-
-[[nodiscard]] inline std::uint64_t n_bits(const Mask512& mask) {
-  std::uint64_t n = 0;
-  for (const std::uint64_t word : mask) n += static_cast<std::uint64_t>(std::popcount(word));
-  return n;
-}
+using field::block_of;
+using field::blocks_of;
+using field::comes_before;
+using field::IndexHash;
+using field::kBlockSamples;
+using field::kBlockSize;
+using field::Mask512;
+using field::n_ones;
+using field::origin_of;
+using field::samples_of;
 
 /// Its samples follow it in memory.
 struct alignas(64) Block {
@@ -85,30 +85,6 @@ class BlockPool {
   std::vector<BlockPtr> free_;
 };
 
-/// Index of the block that holds a sample index, along one axis.
-[[nodiscard]] constexpr std::int32_t block_of(std::int32_t index) { return index >> 3; }
-[[nodiscard]] inline Index3 block_of(const Index3& p) {
-  return {block_of(p[0]), block_of(p[1]), block_of(p[2])};
-}
-[[nodiscard]] inline IndexBox blocks_of(const IndexBox& box) {
-  return {block_of(box.lo), block_of(box.hi)};
-}
-/// Index of a block's first sample.
-[[nodiscard]] inline Index3 origin_of(const Index3& block) {
-  return {block[0] * kSide, block[1] * kSide, block[2] * kSide};
-}
-[[nodiscard]] inline IndexBox samples_of(const Index3& block) {
-  const Index3 lo = origin_of(block);
-  return {lo, {lo[0] + (kSide - 1), lo[1] + (kSide - 1), lo[2] + (kSide - 1)}};
-}
-
-/// Ordered by (z, y, x).
-[[nodiscard]] inline bool comes_before(const Index3& a, const Index3& b) {
-  if (a[2] != b[2]) return a[2] < b[2];
-  if (a[1] != b[1]) return a[1] < b[1];
-  return a[0] < b[0];
-}
-
 /// The least box around the set samples of a block; empty where there are none.
 [[nodiscard]] inline IndexBox box_of(const Index3& block, const Mask512& mask) {
   std::uint64_t plane = 0;
@@ -124,8 +100,8 @@ class BlockPool {
   const auto lowest = [](std::uint64_t bits) { return std::countr_zero(bits); };
   const auto highest = [](std::uint64_t bits) { return 63 - std::countl_zero(bits); };
   const Index3 at = origin_of(block);
-  return {{at[0] + lowest(columns), at[1] + lowest(plane) / kSide, at[2] + lowest(planes)},
-          {at[0] + highest(columns), at[1] + highest(plane) / kSide, at[2] + highest(planes)}};
+  return {{at[0] + lowest(columns), at[1] + lowest(plane) / kBlockSize, at[2] + lowest(planes)},
+          {at[0] + highest(columns), at[1] + highest(plane) / kBlockSize, at[2] + highest(planes)}};
 }
 
 /// Calls f with each block that a box of samples meets, by (z, y, x).
@@ -156,13 +132,13 @@ inline void copy_from_block(const Index3& block, const std::byte* samples, std::
   const Index3 from = origin_of(block);
   const auto size = [](std::int64_t v) { return static_cast<std::size_t>(v); };
   const std::size_t row_bytes = size(part.extent(0)) * sample_bytes;
-  const std::size_t block_row = kSide * sample_bytes;
+  const std::size_t block_row = kBlockSize * sample_bytes;
   const std::size_t box_row = size(box.extent(0)) * sample_bytes;
   const auto copy = row_bytes == 32  ? &copy_rows<32>
                     : row_bytes == 8 ? &copy_rows<8>
                                      : &copy_rows<0>;
   for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
-    const std::size_t in = size(k - from[2]) * kSide + size(part.lo[1] - from[1]);
+    const std::size_t in = size(k - from[2]) * kBlockSize + size(part.lo[1] - from[1]);
     const std::size_t to = size(k - box.lo[2]) * size(box.extent(1)) + size(part.lo[1] - box.lo[1]);
     copy(samples + in * block_row + size(part.lo[0] - from[0]) * sample_bytes, block_row,
          out + to * box_row + size(part.lo[0] - box.lo[0]) * sample_bytes, box_row, row_bytes,
@@ -170,15 +146,6 @@ inline void copy_from_block(const Index3& block, const std::byte* samples, std::
   }
 }
 
-struct BlockHash {
-  std::size_t operator()(const Index3& p) const noexcept {
-    const auto part = [](std::int32_t v) { return std::uint64_t{static_cast<std::uint32_t>(v)}; };
-    std::uint64_t h = part(p[0]) * 0x9E3779B97F4A7C15U;
-    h = (std::rotl(h, 21) ^ part(p[1])) * 0xC2B2AE3D27D4EB4FU;
-    h = (std::rotl(h, 21) ^ part(p[2])) * 0x165667B19E3779F9U;
-    return h ^ h >> 29U;
-  }
-};
-using BlockMap = std::unordered_map<Index3, BlockPtr, BlockHash>;
+using BlockMap = std::unordered_map<Index3, BlockPtr, IndexHash>;
 
 }  // namespace mc::edit

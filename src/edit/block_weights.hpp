@@ -20,9 +20,9 @@ struct BlockWeights {
 /// Calls f(row) for each row (j + 8 k) that has a sample of the mask.
 template <class F>
 void for_rows_of(const Mask512& mask, F&& f) {
-  for (std::size_t k = 0; k < kSide; ++k) {
+  for (std::size_t k = 0; k < kBlockSize; ++k) {
     if (mask[k] == 0) continue;
-    for (std::size_t j = 0; j < kSide; ++j) {
+    for (std::size_t j = 0; j < kBlockSize; ++j) {
       if ((mask[k] >> (8 * j) & 0xFFU) != 0) f(8 * k + j);
     }
   }

@@ -64,7 +64,7 @@ Stroke lay_out(const Edit& edit, const EditRules& rules, const IndexBox& within,
                const IndexBox& bounded);
 inline constexpr std::size_t kMostPositions = std::size_t{1} << 20U;
 
-using Row = std::array<double, kSide>;
+using Row = std::array<double, kBlockSize>;
 
 /// Coordinates of eight samples of a row.
 struct Places {

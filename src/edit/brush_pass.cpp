@@ -23,8 +23,8 @@ using BlockBytes = std::array<std::byte, kBlockSamples * sizeof(std::uint64_t)>;
 /// Bits of the samples of a row that differ.
 std::uint64_t differing(const std::byte* a, const std::byte* b, std::size_t sample_bytes) {
   std::uint64_t bits = 0;
-  if (std::memcmp(a, b, kSide * sample_bytes) == 0) return bits;
-  for (std::size_t i = 0; i < kSide; ++i) {
+  if (std::memcmp(a, b, kBlockSize * sample_bytes) == 0) return bits;
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     const std::size_t at = i * sample_bytes;
     bits |= std::uint64_t{std::memcmp(a + at, b + at, sample_bytes) != 0} << i;
   }
@@ -128,23 +128,24 @@ void BrushPass::compare(const std::byte* before, const Mask512& active_before, O
   const std::size_t size = layer().sample_bytes();
   const std::byte* after = out.block->samples();
   for_rows_of(out.marks.reached, [&](std::size_t row) {
-    const std::size_t at = row * kSide * size;
-    out.marks.changed[row / kSide] |= differing(before + at, after + at, size)
-                                      << (row % kSide * kSide);
+    const std::size_t at = row * kBlockSize * size;
+    out.marks.changed[row / kBlockSize] |= differing(before + at, after + at, size)
+                                           << (row % kBlockSize * kBlockSize);
   });
   if (edit_.op == EditOp::paint) {  // the first paint is a change, also by the material 0
-    for (std::size_t k = 0; k < kSide; ++k) {
+    for (std::size_t k = 0; k < kBlockSize; ++k) {
       out.marks.changed[k] |= out.block->active[k] & ~active_before[k];
     }
   }
-  out.changed = n_bits(out.marks.changed) != 0;
+  out.changed = n_ones(out.marks.changed) != 0;
   if (edit_.op == EditOp::paint || world_.samples.input().leaves() == nullptr) return;
   if (edit_.op != EditOp::revert && out.changed) {
     alignas(64) BlockBytes row;
-    fill_samples(row.data(), kSide, world_.samples.background(), size);
+    fill_samples(row.data(), kBlockSize, world_.samples.background(), size);
     for_rows_of(out.marks.changed, [&](std::size_t n) {
-      const std::uint64_t bits = differing(row.data(), after + n * kSide * size, size);
-      out.block->active[n / kSide] |= out.marks.changed[n / kSide] & bits << (n % kSide * kSide);
+      const std::uint64_t bits = differing(row.data(), after + n * kBlockSize * size, size);
+      out.block->active[n / kBlockSize] |=
+          out.marks.changed[n / kBlockSize] & bits << (n % kBlockSize * kBlockSize);
     });
   }
   out.changed = out.changed || out.block->active != active_before;
@@ -206,7 +207,7 @@ void BrushPass::measure() {
       }
       join(marks.reached, weights.reached);
     });
-    effect_.n_samples += n_bits(marks.reached);
+    effect_.n_samples += n_ones(marks.reached);
     effect_.touched = joined(effect_.touched, box_of(at, marks.reached));
   }
 }
@@ -214,17 +215,17 @@ void BrushPass::measure() {
 void BrushPass::note(const Index3& at, const Marks& marks) {
   effect_.touched = joined(effect_.touched, box_of(at, marks.changed));
   if (!looks_around(edit_.op)) {
-    effect_.n_samples += n_bits(marks.reached);
-    effect_.n_changed += n_bits(marks.changed);
+    effect_.n_samples += n_ones(marks.reached);
+    effect_.n_changed += n_ones(marks.changed);
     return;
   }
   Marks& all = noted_[at];
-  effect_.n_samples -= n_bits(all.reached);
-  effect_.n_changed -= n_bits(all.changed);
+  effect_.n_samples -= n_ones(all.reached);
+  effect_.n_changed -= n_ones(all.changed);
   join(all.reached, marks.reached);
   join(all.changed, marks.changed);
-  effect_.n_samples += n_bits(all.reached);
-  effect_.n_changed += n_bits(all.changed);
+  effect_.n_samples += n_ones(all.reached);
+  effect_.n_changed += n_ones(all.changed);
 }
 
 }  // namespace mc::edit

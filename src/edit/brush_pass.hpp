@@ -63,7 +63,7 @@ class BrushPass {
   Recipe recipe_;
   std::optional<TouchList> touches_;
   EditEffect effect_;
-  std::unordered_map<Index3, Marks, BlockHash> noted_;  // of several passes
+  std::unordered_map<Index3, Marks, IndexHash> noted_;  // of several passes
 };
 
 }  // namespace mc::edit

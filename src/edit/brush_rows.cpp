@@ -78,7 +78,7 @@ double ellipsoid_distance(double px, double py, double pz, const Vec3& radii) {
 /// Distances from a ball whose middle moves along a line: from the one that is nearest.
 void measure_balls(const Position& at, const Places& p, Distances& out) noexcept {
   const auto& [ux, uy, uz] = at.along;
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     const double foot = (p.x[i] * ux + p.y[i] * uy) + p.z[i] * uz;
     const double radial = length(p.x[i] - ux * foot, p.y[i] - uy * foot, p.z[i] - uz * foot);
     const double s = clamped(foot - radial * at.slope, 0, at.length);
@@ -89,7 +89,7 @@ void measure_balls(const Position& at, const Places& p, Distances& out) noexcept
 }
 
 void measure_ball(const Position& at, const Places& p, Distances& out) noexcept {
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     out.r[i] = length(p.x[i], p.y[i], p.z[i]);
     out.radius[i] = at.radius;
     out.sd[i] = out.r[i] - at.radius;
@@ -99,7 +99,7 @@ void measure_ball(const Position& at, const Places& p, Distances& out) noexcept 
 /// Moves the brush to the point of its line that is nearest to each sample.
 void move_along(const Position& at, Places& p) noexcept {
   const auto& [ux, uy, uz] = at.along;
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     const double s = clamped((p.x[i] * ux + p.y[i] * uy) + p.z[i] * uz, 0, at.length);
     p.x[i] -= ux * s;
     p.y[i] -= uy * s;
@@ -109,7 +109,7 @@ void move_along(const Position& at, Places& p) noexcept {
 
 template <class F>
 void measure_each(const Brush& brush, const Places& p, Distances& out, F distance) {
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     out.sd[i] = distance(p.x[i], p.y[i], p.z[i], i);
     out.r[i] = brush.inradius + out.sd[i];
     out.radius[i] = brush.inradius;
@@ -135,7 +135,7 @@ double curve_at(const std::vector<std::array<double, 2>>& points, double t) {
 template <class F>
 void fall_off(const Brush& brush, const Distances& d, Row& out, F weight) {
   const double inner = brush.falloff.inner;
-  for (std::size_t i = 0; i < kSide; ++i) {
+  for (std::size_t i = 0; i < kBlockSize; ++i) {
     const double from = inner * d.radius[i];
     const double t = clamped((d.r[i] - from) / (d.radius[i] - from), 0, 1);
     const double w = weight(t);
@@ -150,7 +150,7 @@ void place_row(const Affine& map, std::int32_t i0, std::int32_t j, std::int32_t 
   const auto& m = map.m;
   const auto coordinates = [&](std::size_t r, Row& to) {
     const double base = (m[r + 1] * j + m[r + 2] * k) + m[r + 3];
-    for (std::int32_t i = 0; i < kSide; ++i) {
+    for (std::int32_t i = 0; i < kBlockSize; ++i) {
       to[static_cast<std::size_t>(i)] = m[r] * (i0 + i) + base;
     }
   };
@@ -199,10 +199,10 @@ void measure_row(const Brush& brush, const Position& at, Places& p, const float*
 void weigh_row(const Brush& brush, const Distances& d, Row& out) noexcept {
   switch (brush.falloff.type) {
     case FalloffType::none:
-      for (std::size_t i = 0; i < kSide; ++i) out[i] = d.sd[i] <= brush.reach ? 1 : 0;
+      for (std::size_t i = 0; i < kBlockSize; ++i) out[i] = d.sd[i] <= brush.reach ? 1 : 0;
       return;
     case FalloffType::hard:
-      for (std::size_t i = 0; i < kSide; ++i) out[i] = d.sd[i] <= 0 ? 1 : 0;
+      for (std::size_t i = 0; i < kBlockSize; ++i) out[i] = d.sd[i] <= 0 ? 1 : 0;
       return;
     case FalloffType::linear:
       return fall_off(brush, d, out, [](double t) { return 1 - t; });

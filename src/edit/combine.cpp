@@ -67,11 +67,11 @@ template <class T, class F>
 void change(std::uint32_t steps, const BlockWeights& weights, const double* operand, T* samples,
             F f) {
   for_rows_of(weights.reached, [&](std::size_t row) {
-    const double* w = weights.weight.data() + row * kSide;
-    const double* b = operand + row * kSide;
-    T* d = samples + row * kSide;
+    const double* w = weights.weight.data() + row * kBlockSize;
+    const double* b = operand + row * kBlockSize;
+    T* d = samples + row * kBlockSize;
     for (std::uint32_t step = 0; step < steps; ++step) {
-      for (std::size_t i = 0; i < kSide; ++i) {
+      for (std::size_t i = 0; i < kBlockSize; ++i) {
         const double before = widened(d[i]);
         const double value = f(before, w[i], b[i]);
         const T next = narrowed<T>(value);
@@ -153,11 +153,11 @@ Mask512 restore(double amount, std::uint32_t steps, const BlockWeights& weights,
     change(steps, weights, target.data(), out,
            [&](double d, double w, double b) { return mixed(d, b, amount * w); });
     for_rows_of(weights.reached, [&](std::size_t row) {
-      for (std::size_t i = 0; i < kSide; ++i) {
-        const std::size_t n = row * kSide + i;
+      for (std::size_t i = 0; i < kBlockSize; ++i) {
+        const std::size_t n = row * kBlockSize + i;
         if (!(amount * weights.weight[n] >= 1)) continue;
         out[n] = input[n];
-        whole[row / kSide] |= std::uint64_t{1} << (row % kSide * kSide + i);
+        whole[row / kBlockSize] |= std::uint64_t{1} << (row % kBlockSize * kBlockSize + i);
       }
     });
   });

@@ -93,8 +93,8 @@ class EditedLeaves final : public LeafReader {
       if (blocks.contains(*at)) inside.push_back(*at);
     }
     if (inside.empty()) return tiles_.push_back(tile);
-    if (tile.size == kSide) return;
-    const std::int32_t parts = tile.size / kSide % 2 == 0 ? 2 : tile.size / kSide;
+    if (tile.size == kBlockSize) return;
+    const std::int32_t parts = tile.size / kBlockSize % 2 == 0 ? 2 : tile.size / kBlockSize;
     Tile part = tile;
     part.size = tile.size / parts;
     for (std::int32_t n = 0; n < parts * parts * parts; ++n) {

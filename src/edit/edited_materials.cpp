@@ -17,12 +17,13 @@ bool EditedMaterials::paint_at(const Vec3& place, std::uint16_t& out) const {
   }
   const Block* block = world_.materials.find(block_of(nearest));
   if (block == nullptr) return false;
-  constexpr std::int32_t kWithin = kSide - 1;
+  constexpr std::int32_t kWithin = kBlockSize - 1;
   const auto i = static_cast<std::size_t>(nearest[0] & kWithin);
   const auto j = static_cast<std::size_t>(nearest[1] & kWithin);
   const auto k = static_cast<std::size_t>(nearest[2] & kWithin);
-  if ((block->active[k] >> (kSide * j + i) & 1U) == 0) return false;
-  std::memcpy(&out, block->samples() + ((k * kSide + j) * kSide + i) * sizeof out, sizeof out);
+  if ((block->active[k] >> (kBlockSize * j + i) & 1U) == 0) return false;
+  std::memcpy(&out, block->samples() + ((k * kBlockSize + j) * kBlockSize + i) * sizeof out,
+              sizeof out);
   return true;
 }
 

@@ -14,8 +14,8 @@ IndexBox active_box(const EditedSamples& samples, std::uint64_t& n_active) {
   n_active = filled ? 0 : input.n_active.value_or(0);
   for (const auto& [at, block] : samples.layer().blocks()) {
     box = joined(box, box_of(at, block->active));
-    n_active += n_bits(block->active);
-    n_active -= n_bits(samples.base_active(at));
+    n_active += n_ones(block->active);
+    n_active -= n_ones(samples.base_active(at));
   }
   return box;
 }

@@ -183,8 +183,8 @@ bool is_within(const std::byte* at, const Buffer<std::byte>& storage) {
 std::vector<std::size_t> EditedSlabs::patched_planes(std::int32_t k0, std::int32_t k1) const {
   std::vector<bool> patched(static_cast<std::size_t>(k1 - k0), false);
   for_stored(k0, k1, 0, [&](const Index3& at) {
-    const std::int32_t first = std::max(at[2] * kSide, k0) - k0;
-    const std::int32_t last = std::min(at[2] * kSide + kSide, k1) - k0;
+    const std::int32_t first = std::max(at[2] * kBlockSize, k0) - k0;
+    const std::int32_t last = std::min(at[2] * kBlockSize + kBlockSize, k1) - k0;
     std::fill(patched.begin() + first, patched.begin() + last, true);
   });
   std::vector<std::size_t> out;
@@ -261,10 +261,10 @@ void EditedSlabs::patch(Slab& out) const {
     const std::size_t row_bytes = static_cast<std::size_t>(part.extent(0)) * size_;
     for (std::int32_t k = part.lo[2]; k <= part.hi[2]; ++k) {
       for (std::int32_t j = part.lo[1]; j <= part.hi[1]; ++j) {
-        const auto row =
-            static_cast<std::size_t>(k - from[2]) * kSide + static_cast<std::size_t>(j - from[1]);
+        const auto row = static_cast<std::size_t>(k - from[2]) * kBlockSize +
+                         static_cast<std::size_t>(j - from[1]);
         std::byte* to = row_of(out, {part.lo[0], j, k});
-        std::memcpy(to, samples + row * kSide * size_, row_bytes);
+        std::memcpy(to, samples + row * kBlockSize * size_, row_bytes);
         if (volume_.endian != std::endian::native) swap_samples({to, row_bytes}, size_);
       }
     }

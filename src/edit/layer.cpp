@@ -13,7 +13,7 @@ namespace mc::edit {
 namespace {
 
 std::uint64_t hash_of(const Index3& at, const Block& block, std::size_t sample_bytes) {
-  std::uint64_t h = BlockHash{}(at);
+  std::uint64_t h = IndexHash{}(at);
   for (const std::uint64_t word : block.active) h = base::hash_on(h, word);
   h = base::hash_on(h, {block.samples(), kBlockSamples * sample_bytes});
   return base::hash_on(h, 1);

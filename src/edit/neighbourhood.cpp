@@ -20,7 +20,7 @@ namespace {
 class Surroundings {
  public:
   Surroundings(const EditedSamples& samples, const Index3& block, std::int32_t ring)
-      : ring_(ring), side_(kSide + 2 * ring), whole_(samples_of(block)) {
+      : ring_(ring), side_(kBlockSize + 2 * ring), whole_(samples_of(block)) {
     for (std::size_t a = 0; a < 3; ++a) whole_.lo[a] -= ring, whole_.hi[a] += ring;
     box_ = whole_;
     if (samples.input().leaves() == nullptr) {
@@ -103,7 +103,7 @@ std::vector<double> kernel_weights(SmoothKernel kernel, double radius) {
 void sum_lines(const std::vector<double>& weights, std::size_t n_lines, std::size_t length_in,
                const double* in, double* out) {
   for (std::size_t line = 0; line < n_lines; ++line) {
-    for (std::size_t at = 0; at < kSide; ++at) {
+    for (std::size_t at = 0; at < kBlockSize; ++at) {
       const double* from = in + line * length_in + at;
       double sum = 0;
       for (std::size_t n = 0; n < weights.size(); ++n) sum += weights[n] * from[n];
@@ -115,11 +115,11 @@ void sum_lines(const std::vector<double>& weights, std::size_t n_lines, std::siz
 /// The weighted sums of a cube around each sample of a block: along i, then j, then k.
 void sum_cube(const std::vector<double>& weights, std::size_t side, const Buffer<double>& cube,
               double* out) {
-  Buffer<double> a(side * side * kSide);
-  Buffer<double> b(side * kSide * kSide);
-  sum_lines(weights, side * side, side, cube.data(), a.data());  // i, k, j: j is fastest
-  sum_lines(weights, kSide * side, side, a.data(), b.data());    // j, i, k
-  sum_lines(weights, kSide * kSide, side, b.data(), out);        // k, j, i
+  Buffer<double> a(side * side * kBlockSize);
+  Buffer<double> b(side * kBlockSize * kBlockSize);
+  sum_lines(weights, side * side, side, cube.data(), a.data());      // i, k, j: j is fastest
+  sum_lines(weights, kBlockSize * side, side, a.data(), b.data());   // j, i, k
+  sum_lines(weights, kBlockSize * kBlockSize, side, b.data(), out);  // k, j, i
 }
 
 void find_weighted_means(const std::vector<double>& weights, const Surroundings& around,
@@ -155,18 +155,18 @@ void find_medians(std::int32_t n, const Surroundings& around, const Mask512& rea
                   std::span<double, kBlockSamples> out) {
   std::vector<double> window;
   for_rows_of(reached, [&](std::size_t row) {
-    for (std::int32_t i = 0; i < kSide; ++i) {
+    for (std::int32_t i = 0; i < kBlockSize; ++i) {
       window.clear();
       for (std::int32_t dk = -n; dk <= n; ++dk) {
         for (std::int32_t dj = -n; dj <= n; ++dj) {
           for (std::int32_t di = -n; di <= n; ++di) {
-            const double v = around.value(i + di, static_cast<std::int32_t>(row % kSide) + dj,
-                                          static_cast<std::int32_t>(row / kSide) + dk);
+            const double v = around.value(i + di, static_cast<std::int32_t>(row % kBlockSize) + dj,
+                                          static_cast<std::int32_t>(row / kBlockSize) + dk);
             if (v == v) window.push_back(v);
           }
         }
       }
-      double& to = out[row * kSide + static_cast<std::size_t>(i)];
+      double& to = out[row * kBlockSize + static_cast<std::size_t>(i)];
       to = std::nan("");
       if (window.empty()) continue;
       const auto middle = window.begin() + static_cast<std::ptrdiff_t>((window.size() - 1) / 2);
@@ -217,7 +217,7 @@ void find_slopes(const Affine& to_world, const EditedSamples& before, const Inde
   const Surroundings around(before, block, 1);
   const Affine to_index = inverse(to_world);
   for_rows_of(reached, [&](std::size_t row) {
-    for (std::size_t n = row * kSide; n < (row + 1) * kSide; ++n) {
+    for (std::size_t n = row * kBlockSize; n < (row + 1) * kBlockSize; ++n) {
       out[n] = length(gradient_at(around, to_index, local_place(n)));
     }
   });
@@ -249,7 +249,7 @@ SurfaceSums sum_surface(const EditRules& rules, const EditedSamples& before, con
   const Index3 first = origin_of(block);
   SurfaceSums out;
   for_rows_of(weights.reached, [&](std::size_t row) {
-    for (std::size_t n = row * kSide; n < (row + 1) * kSide; ++n) {
+    for (std::size_t n = row * kBlockSize; n < (row + 1) * kBlockSize; ++n) {
       const double w = weights.weight[n];
       const Index3 p = local_place(n);
       for (std::size_t a = 0; a < 3 && w > 0; ++a) {

@@ -19,10 +19,10 @@ template <class F>
 void for_samples_of(const Index3& block, const Mask512& reached, F f) {
   const Index3 at = origin_of(block);
   for_rows_of(reached, [&](std::size_t row) {
-    const auto j = at[1] + static_cast<std::int32_t>(row % kSide);
-    const auto k = at[2] + static_cast<std::int32_t>(row / kSide);
-    for (std::int32_t i = 0; i < kSide; ++i) {
-      f(row * kSide + static_cast<std::size_t>(i), at[0] + i, j, k);
+    const auto j = at[1] + static_cast<std::int32_t>(row % kBlockSize);
+    const auto k = at[2] + static_cast<std::int32_t>(row / kBlockSize);
+    for (std::int32_t i = 0; i < kBlockSize; ++i) {
+      f(row * kBlockSize + static_cast<std::size_t>(i), at[0] + i, j, k);
     }
   });
 }
@@ -78,7 +78,7 @@ void Operands::find_csg(const BlockWeights& weights, std::span<double, kBlockSam
   // A difference is the intersection with the complement, whose distance has the other sign.
   const bool rises = rules_.above != (edit_.op == EditOp::add);  // values rise with the distance
   for_rows_of(weights.reached, [&](std::size_t row) {
-    for (std::size_t n = row * kSide; n < (row + 1) * kSide; ++n) {
+    for (std::size_t n = row * kBlockSize; n < (row + 1) * kBlockSize; ++n) {
       const double distance = weights.distance[n];
       out[n] = rises ? rules_.iso + distance : rules_.iso - distance;
     }
@@ -90,7 +90,7 @@ void Operands::find_noise(const Index3& block, const BlockWeights& weights,
   std::array<float, kBlockSamples> values;
   sample_block(*edit_.noise, rules_.to_world, box_of(block, weights.reached), values);
   for_rows_of(weights.reached, [&](std::size_t row) {
-    for (std::size_t n = row * kSide; n < (row + 1) * kSide; ++n) {
+    for (std::size_t n = row * kBlockSize; n < (row + 1) * kBlockSize; ++n) {
       out[n] = values[n] == values[n] ? static_cast<double>(values[n]) : 0;
     }
   });

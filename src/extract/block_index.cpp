@@ -6,16 +6,15 @@
 
 namespace mc::extraction {
 
+using field::n_ones;
+using field::rank_in;
+using field::set;
+
 namespace {
 
 constexpr std::int32_t kNodeSamples = 64;  // a node is 8 blocks of 8 samples wide
 
-std::uint64_t hash_of(const Index3& p) {
-  std::uint64_t h = static_cast<std::uint32_t>(p[0]) * 0x9E3779B97F4A7C15ULL;
-  h = (h ^ (h >> 29U)) + static_cast<std::uint32_t>(p[1]) * 0xBF58476D1CE4E5B9ULL;
-  h = (h ^ (h >> 31U)) + static_cast<std::uint32_t>(p[2]) * 0x94D049BB133111EBULL;
-  return h ^ (h >> 32U);
-}
+std::size_t hash_of(const Index3& key) { return field::IndexHash{}(key); }
 
 Index3 plus(const Index3& p, std::int32_t x, std::int32_t y, std::int32_t z) {
   return {p[0] + x, p[1] + y, p[2] + z};
@@ -60,7 +59,7 @@ std::uint32_t BlockIndex::constant_of(const Scalar& value, const Threshold& thre
 void BlockIndex::add_leaves(std::span<const Index3> origins) {
   for (const Index3& origin : origins) {
     const Index3 block = block_of(origin);
-    set(nodes_[node_at(block_of(block))].leaf, bit_place(block));
+    set(nodes_[node_at(block_of(block))].leaf, bit_index(block));
   }
   const auto number_nodes = [this] {
     std::uint32_t n = 0;
@@ -85,7 +84,7 @@ void BlockIndex::add_leaves(std::span<const Index3> origins) {
 void BlockIndex::add_tiles(std::span<const Tile> tiles, const Threshold& threshold) {
   for (const Tile& tile : tiles) add_tile(tile, constant_of(tile.value, threshold));
   std::sort(big_tiles_.begin(), big_tiles_.end(),
-            [](const BigTile& a, const BigTile& b) { return before(a.origin, b.origin); });
+            [](const BigTile& a, const BigTile& b) { return comes_before(a.origin, b.origin); });
   number_tiles(tiles);
 }
 
@@ -95,7 +94,7 @@ void BlockIndex::number_tiles(std::span<const Tile> tiles) {
   for (Node& node : nodes_) {
     if (node.constant != kVarious) continue;
     node.tiles = n;
-    n += ones_in(node.tile);
+    n += n_ones(node.tile);
   }
   if (n == 0) return;
   tile_entries_.resize(n);
@@ -106,7 +105,7 @@ void BlockIndex::number_tiles(std::span<const Tile> tiles) {
     for_each_block(tile, [&](const Index3& block) {
       const Node& node = nodes_[node_at(block_of(block))];
       if (node.constant != kVarious) return;
-      tile_entries_[node.tiles + rank_in(node.tile, bit_place(block))] = constant;
+      tile_entries_[node.tiles + rank_in(node.tile, bit_index(block))] = constant;
     });
   }
 }
@@ -125,8 +124,8 @@ void BlockIndex::add_tile(const Tile& tile, std::uint32_t constant) {
     Node& node = nodes_[node_at(block_of(block))];
     const bool same = node.constant == kNoTile || node.constant == constant;
     node.constant = same ? constant : kVarious;
-    set(node.tile, bit_place(block));
-    if (odd) set(node.odd, bit_place(block));
+    set(node.tile, bit_index(block));
+    if (odd) set(node.odd, bit_index(block));
   });
 }
 
@@ -167,9 +166,9 @@ std::optional<std::uint32_t> BlockIndex::big_tile_at(const Index3& key) const {
   for (const std::int32_t size : big_sizes_) {  // tiles lie at multiples of their size
     const auto down = [size](std::int32_t x) { return x - ((x % size) + size) % size; };
     const Index3 origin{down(key[0]), down(key[1]), down(key[2])};
-    const auto found =
-        std::lower_bound(big_tiles_.begin(), big_tiles_.end(), origin,
-                         [](const BigTile& t, const Index3& p) { return before(t.origin, p); });
+    const auto found = std::lower_bound(
+        big_tiles_.begin(), big_tiles_.end(), origin,
+        [](const BigTile& t, const Index3& p) { return comes_before(t.origin, p); });
     if (found != big_tiles_.end() && found->origin == origin && found->size == size) {
       return found->constant;
     }
@@ -181,7 +180,7 @@ Block BlockIndex::at(const Index3& block) const {
   const auto constant = [&](std::uint32_t n) {
     return Block{Block::kConstant, constants_[n].value, constants_[n].above};
   };
-  const BitPlace p = bit_place(block);
+  const BitIndex p = bit_index(block);
   if (const Node* node = find(block_of(block)); node != nullptr) {
     if (test(node->leaf, p)) {
       const std::uint64_t before = node->leaf[p.word] & ((std::uint64_t{1} << p.bit) - 1);
@@ -253,7 +252,7 @@ std::vector<Index3> BlockIndex::candidate_nodes() const {
       }
     }
   }
-  std::sort(keys.begin(), keys.end(), before);
+  std::sort(keys.begin(), keys.end(), comes_before);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
 }
@@ -298,8 +297,8 @@ std::vector<SurfaceBlock> BlockIndex::candidates() const {
       const int x = std::countr_zero(m);
       const unsigned bit = 8 * y + static_cast<unsigned>(x);
       SurfaceBlock block;
-      block.at = plus({node.key[0] * 8, node.key[1] * 8, node.key[2] * 8}, x,
-                      static_cast<std::int32_t>(y), static_cast<std::int32_t>(w));
+      block.at =
+          plus(origin_of(node.key), x, static_cast<std::int32_t>(y), static_cast<std::int32_t>(w));
       for (std::size_t n = 0; n < 8; ++n) {
         block.above |= static_cast<std::uint8_t>((node.above[n][w] >> bit & 1U) << n);
       }

@@ -17,20 +17,13 @@
 
 namespace mc::extraction {
 
-/// The block (or the node of blocks) that holds an index: division by 8, rounding down.
-inline Index3 block_of(const Index3& p) { return {p[0] >> 3, p[1] >> 3, p[2] >> 3}; }
-
-/// Ordered by (z, y, x).
-inline bool before(const Index3& a, const Index3& b) {
-  if (a[2] != b[2]) return a[2] < b[2];
-  if (a[1] != b[1]) return a[1] < b[1];
-  return a[0] < b[0];
-}
-
-/// Equal. Faster than ==, which is a call of memcmp.
-inline bool same(const Index3& a, const Index3& b) {
-  return ((a[0] ^ b[0]) | (a[1] ^ b[1]) | (a[2] ^ b[2])) == 0;
-}
+using field::bit_index;
+using field::BitIndex;
+using field::block_of;  // of a block: its node
+using field::comes_before;
+using field::origin_of;
+using field::same;
+using field::test;
 
 /// What a block is.
 struct Block {

@@ -2,52 +2,19 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 
-#include "mc/base.hpp"
+#include "field/block.hpp"
 
-// Sets of 8x8x8 things, such as the blocks of a node, and what lies beside them, by word
-// arithmetic.
+// Sets of the blocks of a node, and of the blocks beside them, by word arithmetic.
 
 namespace mc::extraction {
 
-/// 512 bits for 8x8x8 things: word z, bit y*8 + x.
-using Mask512 = std::array<std::uint64_t, 8>;
+using field::Mask512;
+using field::operator|;
 
 inline constexpr std::uint64_t kColumn0 = 0x0101010101010101ULL;  ///< x = 0 in every row
-
-/// Word and bit of a block in its node, or of a sample in its block.
-struct BitPlace {
-  std::size_t word;
-  unsigned bit;
-};
-[[nodiscard]] inline BitPlace bit_place(const Index3& p) {
-  return {static_cast<std::size_t>(p[2] & 7), static_cast<unsigned>((p[1] & 7) * 8 + (p[0] & 7))};
-}
-[[nodiscard]] inline bool test(const Mask512& mask, BitPlace p) {
-  return ((mask[p.word] >> p.bit) & 1U) != 0;
-}
-inline void set(Mask512& mask, BitPlace p) { mask[p.word] |= std::uint64_t{1} << p.bit; }
-
-/// Ones of a mask before a place.
-[[nodiscard]] inline std::uint32_t rank_in(const Mask512& mask, BitPlace p) {
-  int rank = std::popcount(mask[p.word] & ((std::uint64_t{1} << p.bit) - 1));
-  for (std::size_t w = 0; w < p.word; ++w) rank += std::popcount(mask[w]);
-  return static_cast<std::uint32_t>(rank);
-}
-[[nodiscard]] inline std::uint32_t ones_in(const Mask512& mask) {
-  int n = 0;
-  for (const std::uint64_t word : mask) n += std::popcount(word);
-  return static_cast<std::uint32_t>(n);
-}
-
-[[nodiscard]] inline Mask512 operator|(const Mask512& a, const Mask512& b) {
-  Mask512 out;
-  for (std::size_t w = 0; w < 8; ++w) out[w] = a[w] | b[w];
-  return out;
-}
 
 /// Bits of the neighbours at +x, +y, +z: `next` is the node on that side.
 [[nodiscard]] inline Mask512 from_x(const Mask512& m, const Mask512& next) {

@@ -38,7 +38,7 @@ class BlockSampler {
     const Index3 block = block_of(p);
     const std::int32_t n =
         (block[0] - corner_[0]) + 3 * (block[1] - corner_[1]) + 9 * (block[2] - corner_[2]);
-    return value(values(static_cast<std::size_t>(n)), place_of(p[0], p[1], p[2]));
+    return value(values(static_cast<std::size_t>(n)), value_index(p[0], p[1], p[2]));
   }
   [[nodiscard]] Real<T> at(const Index3& p) const {
     return static_cast<Real<T>>(field::number(raw(p)));
@@ -70,15 +70,14 @@ class BlockSampler {
   static T value(const std::byte* values, std::size_t at) {
     return field::load_sample<T, false>(values + at * sizeof(T));
   }
-  /// Where a sample lies among its block's.
-  static std::size_t place_of(std::int32_t x, std::int32_t y, std::int32_t z) {
-    const std::int32_t at = (x & 7) * 64 + (y & 7) * 8 + (z & 7);
-    return static_cast<std::size_t>(at);
+  /// Index of a sample among its block's values.
+  static std::size_t value_index(std::int32_t x, std::int32_t y, std::int32_t z) {
+    return field::leaf_index(x & 7, y & 7, z & 7);
   }
   /// The sample at (x, y, z) from the block's origin, each in -8..15.
   [[nodiscard]] Real<T> near(int x, int y, int z) const {
     const int n = static_cast<int>(kMiddle) + (x >> 3) + 3 * (y >> 3) + 9 * (z >> 3);
-    return real(values(static_cast<std::size_t>(n)), place_of(x, y, z));
+    return real(values(static_cast<std::size_t>(n)), value_index(x, y, z));
   }
   /// The values of block n of the ring; of a constant block, as many copies.
   const std::byte* values(std::size_t n) const {

@@ -29,7 +29,7 @@ class BlockWalk {
                    at[2] + static_cast<std::int32_t>(row / kWidth)};
       std::size_t& p = place_[row];
       if (!begun_) p = search(block);
-      while (p < blocks_.size() && before(blocks_[p].at, block)) ++p;
+      while (p < blocks_.size() && comes_before(blocks_[p].at, block)) ++p;
       std::size_t next = p;
       for (std::size_t x = 0; x < kWidth; ++x, ++block[0]) {
         const bool there = next < blocks_.size() && same(blocks_[next].at, block);
@@ -48,9 +48,9 @@ class BlockWalk {
   static constexpr std::size_t kRows = kWidth * kWidth;
 
   [[nodiscard]] std::size_t search(const Index3& block) const {
-    const auto found =
-        std::lower_bound(blocks_.begin(), blocks_.end(), block,
-                         [](const SurfaceBlock& a, const Index3& b) { return before(a.at, b); });
+    const auto found = std::lower_bound(
+        blocks_.begin(), blocks_.end(), block,
+        [](const SurfaceBlock& a, const Index3& b) { return comes_before(a.at, b); });
     return static_cast<std::size_t>(found - blocks_.begin());
   }
 

@@ -55,14 +55,14 @@ class LeafWalk {
  public:
   /// Begins at a block.
   LeafWalk(std::span<const Index3> origins, const Index3& block) : origins_(origins) {
-    const Index3 origin = {block[0] * 8, block[1] * 8, block[2] * 8};
+    const Index3 origin = origin_of(block);
     place_ = static_cast<std::size_t>(
-        std::lower_bound(origins.begin(), origins.end(), origin, before) - origins.begin());
+        std::lower_bound(origins.begin(), origins.end(), origin, comes_before) - origins.begin());
   }
   /// The number of the leaf, or Block::kConstant.
   std::uint32_t find(const Index3& block) {
-    const Index3 origin = {block[0] * 8, block[1] * 8, block[2] * 8};
-    while (place_ < origins_.size() && before(origins_[place_], origin)) ++place_;
+    const Index3 origin = origin_of(block);
+    while (place_ < origins_.size() && comes_before(origins_[place_], origin)) ++place_;
     const bool there = place_ < origins_.size() && same(origins_[place_], origin);
     return there ? static_cast<std::uint32_t>(place_) : Block::kConstant;
   }

@@ -18,8 +18,6 @@ constexpr std::size_t kBlockIndices = 3 * kMaxTriangles * LeafReader::kLeafSampl
 
 constexpr std::size_t kRingBytes = BlockSampler<double>::kScratchBytes;
 
-Index3 origin_of(const Index3& block) { return {block[0] * 8, block[1] * 8, block[2] * 8}; }
-
 /// Whether a box holds all samples that the vertices of a block can be made of.
 bool holds_ring(const IndexBox& box, const Index3& block) {
   for (std::size_t a = 0; a < 3; ++a) {
@@ -101,7 +99,7 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
   const Index3 o = origin_of(block);
   const auto bit = [&](const Index3& p) {
     const std::int32_t n = (p[0] >> 3) + 2 * (p[1] >> 3) + 4 * (p[2] >> 3);
-    return std::uint64_t{test(*above[static_cast<std::size_t>(n)], bit_place(p))};
+    return std::uint64_t{test(*above[static_cast<std::size_t>(n)], bit_index(p))};
   };
   std::uint64_t crossings = 0;
   for (std::int32_t k = 0; k < 8; ++k) {

@@ -155,8 +155,9 @@ void SparsePlan::find_capped_blocks(const std::vector<LeafSide>& sides) {
   blocks_.resize(faces.size());
   for (std::size_t n = 0; n < faces.size(); ++n) blocks_[n].at = faces[n];
   blocks_.insert(blocks_.begin(), inner.begin(), inner.end());  // first where both name a block
-  std::ranges::stable_sort(
-      blocks_, [](const SurfaceBlock& a, const SurfaceBlock& b) { return before(a.at, b.at); });
+  std::ranges::stable_sort(blocks_, [](const SurfaceBlock& a, const SurfaceBlock& b) {
+    return comes_before(a.at, b.at);
+  });
   const auto one = [](const SurfaceBlock& a, const SurfaceBlock& b) { return same(a.at, b.at); };
   blocks_.erase(std::unique(blocks_.begin(), blocks_.end(), one), blocks_.end());
   const auto constant_bits = [&](bool above, const Index3& block) {

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "field/block.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
 
@@ -16,9 +17,9 @@
 
 namespace mc {
 
-namespace {
+using field::kBlockSize;
 
-constexpr std::int32_t kLeafSize = 8;
+namespace {
 
 /// What a view of `box` says of itself.
 Volume viewed(const Volume& whole, const IndexBox& box) {
@@ -82,7 +83,7 @@ void fill_cube(const Planes<T>& out, const Tile& tile) {
 
 template <class T>
 void fill_leaf(const Planes<T>& out, const Index3& origin, const std::byte* values) {
-  const Overlap3 part(origin, kLeafSize, out.box);
+  const Overlap3 part(origin, kBlockSize, out.box);
   const std::int64_t x0 = out.box.lo[0] + part.x.first - origin[0];
   const std::int64_t y0 = out.box.lo[1] + part.y.first - origin[1];
   const std::int64_t z0 = out.box.lo[2] + part.z.first - origin[2];
@@ -163,14 +164,14 @@ void DenseView::for_leaves(const IndexBox& planes, F&& f) const {
   const auto before = [](std::size_t axis, std::int64_t bound) {
     return [axis, bound](const Index3& leaf) { return leaf[axis] < bound; };
   };
-  const auto first_z = std::int64_t{planes.lo[2]} - (kLeafSize - 1);
+  const auto first_z = std::int64_t{planes.lo[2]} - (kBlockSize - 1);
   auto layer = std::partition_point(leaves.begin(), leaves.end(), before(2, first_z));
   while (layer != leaves.end() && (*layer)[2] <= planes.hi[2]) {
     const auto next = std::partition_point(layer, leaves.end(), before(2, (*layer)[2] + 1LL));
-    const auto first_y = std::int64_t{planes.lo[1]} - (kLeafSize - 1);
+    const auto first_y = std::int64_t{planes.lo[1]} - (kBlockSize - 1);
     auto at = std::partition_point(layer, next, before(1, first_y));
     for (; at != next && (*at)[1] <= planes.hi[1]; ++at) {
-      if (!Overlap3(*at, kLeafSize, planes).empty()) {
+      if (!Overlap3(*at, kBlockSize, planes).empty()) {
         f(static_cast<std::size_t>(at - leaves.begin()));
       }
     }

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <limits>
 
+#include "field/block.hpp"
+
 namespace mc::pipe {
 
 ChunkGrid::ChunkGrid(const IndexBox& region, bool capped, std::int32_t n_cells, std::int32_t ring)
@@ -70,9 +72,7 @@ void append_all(const IndexBox& box, std::vector<Index3>& out) {
 }
 
 void sort_unique(std::vector<Index3>& ids) {
-  std::ranges::sort(ids, [](const Index3& a, const Index3& b) {
-    return std::array{a[2], a[1], a[0]} < std::array{b[2], b[1], b[0]};
-  });
+  std::ranges::sort(ids, field::comes_before);
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 

@@ -11,6 +11,7 @@
 #include "base/parallel.hpp"
 #include "extract/dense.hpp"
 #include "extract/sparse_plan.hpp"
+#include "field/block.hpp"
 #include "mc/pipe.hpp"
 #include "pipe/chunk_grid.hpp"
 #include "pipe/totals_sum.hpp"
@@ -39,17 +40,6 @@ const ChunkOptions& checked(const ChunkOptions& options) {
   }
   return options;
 }
-
-struct IdHash {
-  std::size_t operator()(const Index3& id) const {
-    const auto part = [&](std::size_t a) {
-      return std::uint64_t{static_cast<std::uint32_t>(id[a])};
-    };
-    std::uint64_t h = (part(0) | part(1) << 32U) * 0x9E3779B97F4A7C15U;
-    h = (h ^ h >> 32U ^ part(2)) * 0xD6E8FEB86659FD93U;
-    return h ^ h >> 32U;
-  }
-};
 
 }  // namespace
 
@@ -83,7 +73,7 @@ struct ChunkMesher::State {
   std::vector<Slot> slots;
   std::vector<Index3> ids;                         ///< to be made
   std::optional<pipe::VertexMaterials> materials;  ///< of the volume as it is, if it has any
-  std::unordered_map<Index3, Counts, IdHash> known;
+  std::unordered_map<Index3, Counts, field::IndexHash> known;
   ChunkSums sums;
 };
 
@@ -127,7 +117,7 @@ void ChunkMesher::State::list_surface() {
                                     options.extract);
   ids.clear();
   for (const extraction::SurfaceBlock& block : plan.blocks()) {
-    const Index3 id = grid.chunk_of({block.at[0] * 8, block.at[1] * 8, block.at[2] * 8});
+    const Index3 id = grid.chunk_of(field::origin_of(block.at));
     if (ids.empty() || ids.back() != id) ids.push_back(id);
   }
   for (const auto& [id, counts] : known) ids.push_back(id);

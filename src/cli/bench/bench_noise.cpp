@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/bench/bench_noise.hpp"
-#include "base/simd_target.hpp"
 
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <utility>
 
+#include "base/simd_target.hpp"
 #include "cli/bench/bench_field.hpp"
 #include "graph/rows.hpp"
 #include "mc/graph.hpp"

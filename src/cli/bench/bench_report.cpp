@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/bench/bench_report.hpp"
-#include "base/simd_target.hpp"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/simd_target.hpp"
 #include "cli/bench/bench_field.hpp"
 
 namespace mc::cli {
