@@ -30,6 +30,14 @@ ROOMS = {
 }
 CORE = {"base", "field", "graph", "edit", "mesh", "extract", "pipe"}
 
+# Folder of a room that keeps a law of its own: folders of the room that it may include, besides
+# itself.
+FOLDERS = {
+    "extract/bits": "",
+    "extract/cubes": "bits",
+    "extract/sparse": "bits cubes",
+}
+
 # Public headers that the core does not see: it knows no file format.
 IO_HEADERS = {"mc/source.hpp", "mc/sink.hpp", "mc/convert.hpp", "mc/host.hpp"}
 
@@ -83,6 +91,17 @@ def library_fault(path, name):
     return "unknown library: give it a door in scripts/includes.py"
 
 
+def folder_fault(path, name):
+    """Why the file `path` may not include `name` of the same room; None if it may."""
+    folder, target = ("/".join(p.split("/")[:-1]) for p in (path, name))
+    if folder not in FOLDERS or target == folder:
+        return None
+    room = folder.split("/")[0]
+    if target in (f"{room}/{allowed}" for allowed in FOLDERS[folder].split()):
+        return None
+    return f"src/{folder} may include {FOLDERS[folder] or 'no other folder'} of its room"
+
+
 def source_fault(path, quote, name):
     """Why the file `path`, relative to src/, may not include `name`; None if it may."""
     room = path.split("/")[0]
@@ -94,7 +113,9 @@ def source_fault(path, quote, name):
         return None
     target = name.split("/")[0]
     if target in ROOMS:
-        if target == room or target in ROOMS[room].split():
+        if target == room:
+            return folder_fault(path, name)
+        if target in ROOMS[room].split():
             return None
         return f"room {room} may include {ROOMS[room] or 'no other room'}"
     if quote == '"' and not any(fnmatch.fnmatchcase(name, p) for p in DOORS):

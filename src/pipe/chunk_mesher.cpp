@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "extract/dense.hpp"
-#include "extract/sparse_plan.hpp"
+#include "extract/cubes/dense.hpp"
+#include "extract/sparse/sparse_plan.hpp"
 #include "field/block.hpp"
 #include "mc/pipe.hpp"
 #include "pipe/chunk_grid.hpp"

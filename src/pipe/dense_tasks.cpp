@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/parallel.hpp"
-#include "extract/dense.hpp"
-#include "extract/dense_bands.hpp"
-#include "extract/threshold.hpp"
+#include "extract/bits/threshold.hpp"
+#include "extract/cubes/dense.hpp"
+#include "extract/cubes/dense_bands.hpp"
 #include "pipe/tasks.hpp"
 
 // Dense volumes: a task is a slab of cell layers; its pieces are bands of rows, layer by layer.

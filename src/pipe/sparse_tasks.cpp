@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "extract/sparse.hpp"
+#include "extract/sparse/sparse.hpp"
 #include "mesh/chunk_room.hpp"
 #include "pipe/tasks.hpp"
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "extract/surface_sums.hpp"
+#include "extract/cubes/surface_sums.hpp"
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
 #include "pipe/plane_input.hpp"

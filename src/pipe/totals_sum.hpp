@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "extract/surface_sums.hpp"
+#include "extract/cubes/surface_sums.hpp"
 #include "mc/mesh.hpp"
 
 namespace mc::pipe {

@@ -3,8 +3,9 @@
 #include <array>
 #include <memory>
 
-#include "extract/case_table.hpp"
-#include "extract/row_kernels.hpp"
+#include "extract/bits/row_kernels.hpp"
+#include "extract/cubes/case_table.hpp"
+#include "extract/cubes/triangle_kernels.hpp"
 #include "kernel_bench.hpp"
 
 // One layer of cells of a gyroid: numbering and listing its crossed edges, counting and writing its

@@ -2,7 +2,7 @@
 #include <limits>
 #include <memory>
 
-#include "extract/classify.hpp"
+#include "extract/bits/classify.hpp"
 #include "field/visit_type.hpp"
 #include "kernel_bench.hpp"
 

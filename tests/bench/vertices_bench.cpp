@@ -4,7 +4,7 @@
 #include <memory>
 #include <random>
 
-#include "extract/vertex_kernels.hpp"
+#include "extract/cubes/vertex_kernels.hpp"
 #include "kernel_bench.hpp"
 
 // A batch of crossed edges to vertices: where they are cut, where that lies in the world, and the

@@ -55,6 +55,19 @@ class IncludeLaw(unittest.TestCase):
         )
         self.forbidden("src/mesh/a.cpp", '"a.hpp"', 'write "room/file.hpp", from src/')
 
+    def test_folders_of_a_room(self):
+        bits = "src/extract/bits may include no other folder of its room"
+        self.forbidden("src/extract/bits/a.hpp", '"extract/cubes/a.hpp"', bits)
+        self.forbidden("src/extract/bits/a.hpp", '"extract/sparse/a.hpp"', bits)
+        cubes = "src/extract/cubes may include bits of its room"
+        self.forbidden("src/extract/cubes/a.cpp", '"extract/sparse/a.hpp"', cubes)
+        tree = {
+            "src/extract/cubes/a.cpp": '#include "extract/bits/a.hpp"\n',
+            "src/extract/sparse/a.cpp": '#include "extract/cubes/a.hpp"\n',
+            "src/sink/ply/a.cpp": '#include "sink/part.hpp"\n',
+        }
+        self.assertEqual(run_on(tree), (0, []))
+
     def test_the_core_knows_no_file_format(self):
         why = "room pipe is of the core, which knows no file format"
         self.forbidden("src/pipe/a.cpp", '"mc/sink.hpp"', why)

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "extract/case_table.hpp"
+#include "extract/cubes/case_table.hpp"
 #include "field/visit_type.hpp"
 #include "mc/extract.hpp"
 

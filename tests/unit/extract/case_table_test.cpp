@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "extract/case_table.hpp"
+#include "extract/cubes/case_table.hpp"
 
 #include <gtest/gtest.h>
 

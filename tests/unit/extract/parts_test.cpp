@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/simd_target.hpp"
-#include "extract/dense.hpp"
+#include "extract/cubes/dense.hpp"
 #include "support/memory_readers.hpp"
 #include "support/random_fields.hpp"
 #include "support/reference_extractor.hpp"
