@@ -19,6 +19,15 @@ enum class Inside : std::uint8_t { above, below };
 enum class Normals : std::uint8_t { none, gradient, face };
 enum class Interpolation : std::uint8_t { linear, midpoint };
 
+struct Method;  // mc/method.hpp
+
+/// A run of layers: [first, last).
+struct LayerRange {
+  std::int32_t first = 0, last = 0;
+
+  bool operator==(const LayerRange&) const = default;
+};
+
 struct ExtractOptions {
   double iso = 0;  ///< sample units; finite
   Inside inside =
@@ -34,6 +43,12 @@ struct ExtractOptions {
   Precision precision = Precision::f32;  ///< of chunk positions
   Vec3 origin{};                         ///< subtracted from every position before rounding
   bool measure = false;                  ///< also sum area and volume (costs about as much again)
+  /// Only the mesh of these layers, which lie within part_layers(); normals and the border are
+  /// those of the whole. The meshes of successive parts are the whole one cut up: indices start at
+  /// 0 in each part, and those past its own vertices name the first vertices of the next part. Not
+  /// for streams and ChunkMesher.
+  std::optional<LayerRange> part{};
+  const Method* method = nullptr;  ///< null: cubes_method()
 
   bool operator==(const ExtractOptions&) const = default;
 };

@@ -147,7 +147,7 @@ enum class Border : std::uint8_t { open, closed, solid };
 /// What a source says of its volume.
 struct Volume {
   std::string name;    ///< of the grid; empty where it has none
-  std::string format;  ///< "vdb", "raw", "nrrd", "spec"
+  std::string format;  ///< SourceFormat::name
   Lattice lattice;
   SampleType type = SampleType::f32;
   std::endian endian = std::endian::native;  ///< of the samples a SlabReader hands out

@@ -36,7 +36,7 @@ struct MemoryNeed {
 struct RunOptions {
   ExtractOptions extract;
   std::optional<Affine> to_world;  ///< instead of the volume's own
-  MeshObject object;  ///< counts are filled in by the run where it makes a counting pass
+  MeshObject object;  ///< only its name is read: the run fills in the rest from these options
   /// The process stays within it, pages of mapped files aside, and what the tree of a sparse volume
   /// is more than half of it.
   std::uint64_t memory_bytes = 1ULL << 30;
@@ -48,6 +48,12 @@ struct RunOptions {
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
   std::function<void(const MemoryNeed&)> tell_need;  ///< called before the work; or empty
 };
+
+/// All layers that ExtractOptions::part can choose from (a part that the options name is ignored):
+/// dense, layers of cells from 0, those that lead to a closed border's constant layer included;
+/// sparse, layers of 8x8x8 blocks by their index along k, which may be negative.
+/// Errors   limit: as run(). Cost: dense, none; sparse, a look at all tiles.
+LayerRange part_layers(const VolumeReader& reader, const RunOptions& options);
 
 /// What a run needs; of a dense volume the surface is taken to be smooth, as large as one across
 /// it. Errors   limit: options.memory_bytes are less than the least.
@@ -68,6 +74,8 @@ void check_memory(const VolumeReader& reader, const RunOptions& options);
 /// Errors   empty: no surface (unless allow_empty); limit: memory; those of reader and sink.
 /// Threads  uses the caller's arena; what the sink receives does not depend on the thread count or
 ///          slab thickness but for where chunks are cut.
+/// Part     of options.extract.part: counts are of the vertices that the part owns; area and volume
+///          are its share, which is a volume only when all parts are added and none has a boundary.
 /// Cancel   looked at once a slab; throws Cancelled.
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop);

@@ -3,17 +3,20 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "extract/cubes/dense.hpp"
 #include "extract/sparse/sparse_plan.hpp"
 #include "field/block.hpp"
+#include "mc/method.hpp"
 #include "mc/pipe.hpp"
+#include "mesh/chunk_room.hpp"
 #include "pipe/chunk_grid.hpp"
+#include "pipe/tasks.hpp"
 #include "pipe/totals_sum.hpp"
 #include "pipe/vertex_materials.hpp"
 
@@ -38,6 +41,12 @@ const ChunkOptions& checked(const ChunkOptions& options) {
   if (!std::isfinite(options.extract.iso)) {
     throw Error(ErrorKind::usage, "iso", "is not finite");
   }
+  if (options.extract.part) {
+    throw Error(ErrorKind::usage, "part", "chunks are made of all layers");
+  }
+  if (const Method& method = pipe::method_of(options.extract); method.box == nullptr) {
+    throw Error(ErrorKind::usage, "method", std::string(method.name) + " cannot make chunks");
+  }
   return options;
 }
 
@@ -45,10 +54,10 @@ const ChunkOptions& checked(const ChunkOptions& options) {
 
 struct ChunkMesher::State {
   struct Slot {
-    extraction::DenseExtractor extractor;
+    std::unique_ptr<SlabEngine> engine;
     Slab slab;
     SurfaceChunk chunk;
-    extraction::TaskTotals totals;
+    pipe::TaskTotals totals;
   };
   struct Counts {
     std::uint64_t n_vertices, n_triangles;
@@ -149,7 +158,7 @@ void ChunkMesher::State::list_reached(std::span<const IndexBox> dirty) {
 
 /// Copies the samples that the slot's part is made of.
 void ChunkMesher::State::gather(Slot& slot) const {
-  const IndexBox& box = slot.extractor.samples();
+  const IndexBox box = slot.engine->samples();
   slot.slab.allocate(box, sample_size(volume.type));
   store.read_box(box, slot.slab.storage);
 }
@@ -165,10 +174,11 @@ void ChunkMesher::State::give_materials(Slot& slot) const {
 }
 
 void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
-  slot.extractor.set_part(grid.part(id));
+  slot.engine->set_box(grid.part(id));
   gather(slot);
   SurfaceChunk& chunk = slot.chunk;
-  slot.extractor.extract(slot.slab, 0, slot.extractor.n_layers(), chunk.mesh, slot.totals);
+  slot.engine->extract(slot.slab, 0, slot.engine->n_layers(), mesh::ChunkRoom::kUnlimited,
+                       chunk.mesh, slot.totals);
   pipe::TotalsSum sum(options.extract.measure);
   sum.add(slot.totals);
   chunk.id = id;
@@ -204,8 +214,9 @@ void ChunkMesher::State::remake(const Take& take) {
   if (const MaterialReader* reader = store.materials()) {
     materials.emplace(*reader, to_world, options.extract.origin);
   }
+  const Method& method = pipe::method_of(options.extract);
   while (slots.size() < n_slots) {
-    slots.push_back({{volume, to_world, options.extract, grid.part(ids[0])}, {}, {}, {}});
+    slots.push_back({method.box(volume, to_world, options.extract, grid.part(ids[0])), {}, {}, {}});
   }
   struct Run {
     State& state;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cassert>
 #include <limits>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "base/parallel.hpp"
 #include "extract/bits/threshold.hpp"
-#include "extract/cubes/dense.hpp"
-#include "extract/cubes/dense_bands.hpp"
+#include "mc/method.hpp"
+#include "mesh/chunk_room.hpp"
 #include "pipe/tasks.hpp"
 
 // Dense volumes: a task is a slab of cell layers; its pieces are bands of rows, layer by layer.
@@ -24,15 +27,18 @@ constexpr std::int32_t kMaxLayers = 64;  // more would leave threads idle at the
 constexpr std::int32_t kDearLayers = 61;  // 64 planes
 constexpr std::uint64_t kDearSlabBytes = 64U << 20U;
 constexpr int kTasksAThread = 4;
-/// Planes of a slab that lie beside those of its layers, with gradients.
-constexpr std::int32_t kSharedPlanes = 3;
+/// Planes of a slab beside one for each of its layers, at least: those of cubes with gradients.
+constexpr std::int32_t kMinSharedPlanes = 3;
 
 class DenseTasks final : public TaskList {
  public:
   DenseTasks(const PlaneInput& input, const RunOptions& options)
       : input_(input),
-        grid_(input.volume(), options.to_world.value_or(input.volume().lattice.to_world),
-              options.extract),
+        method_(method_of(options.extract)),
+        extract_(options.extract),
+        to_world_(options.to_world.value_or(input.volume().lattice.to_world)),
+        engine_(new_engine()),
+        range_(chosen_layers(options.extract, {0, engine_->n_layers()})),
         given_layers_(options.slab_layers) {
     const Volume& volume = input.volume();
     const IndexBox box = options.extract.region.value_or(volume.lattice.box);
@@ -44,24 +50,35 @@ class DenseTasks final : public TaskList {
     plane_bytes_ = static_cast<std::uint64_t>(volume.lattice.box.extent(0)) *
                    static_cast<std::uint64_t>(volume.lattice.box.extent(1)) *
                    sample_size(volume.type);
+    const std::int32_t middle = engine_->n_layers() / 2;
+    const auto [k0, k1] = engine_->planes_for(middle, middle + 1);
+    shared_planes_ = std::max(kMinSharedPlanes, k1 - k0 - 1);
     fit(base::pipeline_slots(), std::numeric_limits<std::uint64_t>::max());
   }
 
   void fit(std::size_t n_slots, std::uint64_t bytes) override {
     layers_ = given_layers_ > 0 ? given_layers_ : layers_wanted(bytes / n_slots);
-    layers_ = std::min({layers_, grid_.max_layers(), grid_.n_layers});
+    if (!engine_->has_bands()) layers_ = 1;
+    layers_ = std::min({layers_, engine_->max_layers(), engine_->n_layers()});
   }
   void set_room(const Room& room) override {
     room_ = room;
-    slots_.assign(room.n_slots, {extraction::DenseExtractor(grid_), {}, {}});
-    shared_.reset(2 * (room.n_slots + 1));
-    for (Slot& slot : slots_) slot.extractor.share(&shared_);
+    if (!engine_->has_bands()) {
+      room_.chunk_bytes = std::max(room_.chunk_bytes, engine_->least_chunk_bytes());
+    }
+    slots_.clear();
+    slots_.resize(room.n_slots);
+    std::vector<SlabEngine*> engines;
+    for (Slot& slot : slots_) {
+      slot.engine = new_engine();
+      engines.push_back(slot.engine.get());
+    }
+    engine_->share(engines);
     bands_.reset();
-    makers_.resize(room.n_makers);
   }
-  void forget() override { shared_.forget(); }
+  void forget() override { engine_->forget(); }
   [[nodiscard]] std::size_t n_tasks() const override {
-    return static_cast<std::size_t>((grid_.n_layers + layers_ - 1) / layers_);
+    return static_cast<std::size_t>((range_.last - range_.first + layers_ - 1) / layers_);
   }
   [[nodiscard]] std::uint64_t samples(std::size_t n) const override {
     return plane_samples_ * static_cast<std::uint64_t>(last(n) - first(n));
@@ -73,19 +90,20 @@ class DenseTasks final : public TaskList {
     Slot& s = slots_[slot];
     if (!input_.single_pass()) read(n, s);
     const std::int32_t end =
-        s.extractor.extract(s.slab, first(n), last(n), room_.chunk_bytes, out.chunk, out.totals);
+        s.engine->extract(s.slab, first(n), last(n), room_.chunk_bytes, out.chunk, out.totals);
     out.complete = end == last(n);
     if (!out.complete) {
+      assert(engine_->has_bands());
       s.rest = {end, last(n), end == first(n)};
       out.totals.n_vertices +=
-          s.extractor.count_vertices(s.slab, s.rest.first, s.rest.last, s.rest.with_lowest);
+          s.engine->count_vertices(s.slab, s.rest.first, s.rest.last, s.rest.with_lowest);
     }
     out.totals.n_asked = plane_samples_ * s.slab.planes.size();
     out.totals.n_skipped = s.slab.sides.n_left_out();
   }
   std::size_t next_pieces(std::size_t slot) override {
     Rest& rest = slots_[slot].rest;
-    if (!bands_) bands_.emplace(grid_);
+    if (!bands_) bands_ = engine_->bands(room_.n_makers);
     if (!rest.begun) {
       rest.begun = true;
       bands_->start(slots_[slot].slab, rest.first, rest.last, rest.with_lowest, room_.piece_bytes);
@@ -93,34 +111,30 @@ class DenseTasks final : public TaskList {
     return bands_->next();
   }
   void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) override {
-    bands_->make(piece, makers_[maker], out.chunk, out.totals);
+    bands_->make(piece, maker, out.chunk, out.totals);
   }
   void count(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
     read(n, s);
-    s.extractor.count(s.slab, first(n), last(n), out.totals);
+    s.engine->count(s.slab, first(n), last(n), out.totals);
   }
   [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots, std::size_t n_makers) const override {
     const std::uint64_t slab =
         input_.rereads_cheaply()
             ? 0
-            : plane_bytes_ * static_cast<std::uint64_t>(layers_ + kSharedPlanes);
-    return n_slots * (extraction::DenseExtractor::scratch_bytes(grid_) + slab) +
-           extraction::DenseBands::scratch_bytes(grid_, n_makers);
+            : plane_bytes_ * static_cast<std::uint64_t>(layers_ + shared_planes_);
+    return n_slots * (engine_->scratch_bytes() + slab) + engine_->bands_bytes(n_makers);
   }
   [[nodiscard]] std::uint64_t input_bytes() const override { return input_.held_bytes(); }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
-    return extraction::DenseBands::least_bytes(grid_);
+    return engine_->least_chunk_bytes();
   }
   [[nodiscard]] std::uint64_t smooth_content_bytes() const override {
     // A flat surface through the slab: about a vertex and two triangles a column.
     return mesh::content_bytes(plane_samples_, 2 * plane_samples_, vertex_bytes());
   }
   [[nodiscard]] std::uint64_t most_content_bytes() const override {
-    constexpr std::uint64_t kNoBudget = std::uint64_t{1} << 48U;
-    const std::uint64_t cells =
-        std::min(plane_samples_, kNoBudget / kMaxLayers) * static_cast<std::uint64_t>(layers_ + 1);
-    return mesh::content_bytes(3 * cells, extraction::kMaxTriangles * cells, vertex_bytes());
+    return engine_->max_mesh_bytes(layers_);
   }
 
  private:
@@ -131,20 +145,22 @@ class DenseTasks final : public TaskList {
     bool begun = false;
   };
   struct Slot {
-    extraction::DenseExtractor extractor;
+    std::unique_ptr<SlabEngine> engine;
     Slab slab;
     Rest rest;
   };
 
+  [[nodiscard]] std::unique_ptr<SlabEngine> new_engine() const {
+    return method_.dense(input_.volume(), to_world_, extract_);
+  }
   [[nodiscard]] std::uint64_t vertex_bytes() const {
-    const ExtractOptions& o = grid_.options;
-    return mesh::vertex_bytes(o.precision, o.normals != Normals::none);
+    return mesh::vertex_bytes(extract_.precision, extract_.normals != Normals::none);
   }
   [[nodiscard]] std::int32_t first(std::size_t n) const {
-    return static_cast<std::int32_t>(n) * layers_;
+    return range_.first + static_cast<std::int32_t>(n) * layers_;
   }
   [[nodiscard]] std::int32_t last(std::size_t n) const {
-    return std::min(grid_.n_layers - first(n), layers_) + first(n);
+    return std::min(range_.last - first(n), layers_) + first(n);
   }
   /// Layers of one task, whose planes are to take no more than `bytes` where they are copied.
   [[nodiscard]] std::int32_t layers_wanted(std::uint64_t bytes) const {
@@ -154,31 +170,34 @@ class DenseTasks final : public TaskList {
     };
     const std::int32_t cached = within(kSlabSamples / plane_samples_, kMinLayers, kMaxLayers);
     if (input_.rereads_cheaply()) return cached;
-    const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + kSharedPlanes);
-    const std::int32_t most = std::max(planes - kSharedPlanes, 1);
+    const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + shared_planes_);
+    const std::int32_t most = std::max(planes - shared_planes_, 1);
     if (input_.single_pass()) return std::min(cached, most);
     const auto n_parts =
         std::uint64_t{kTasksAThread} * static_cast<std::uint64_t>(base::thread_count());
-    const auto share = static_cast<std::uint64_t>(grid_.n_layers) / n_parts;
+    const auto share = static_cast<std::uint64_t>(range_.last - range_.first) / n_parts;
     const std::int32_t dear =
         within(std::min(kDearSlabBytes / plane_bytes_, share), kMinLayers, kDearLayers);
     return std::min(std::max(cached, dear), most);
   }
   void read(std::size_t n, Slot& s) const {
-    const auto [k0, k1] = grid_.planes_for(first(n), last(n));
+    const auto [k0, k1] = engine_->planes_for(first(n), last(n));
     input_.read(k0, k1, query_, s.slab);
   }
 
   PlaneInput input_;
-  extraction::DenseGrid grid_;
+  const Method& method_;
+  ExtractOptions extract_;
+  Affine to_world_;
+  std::unique_ptr<SlabEngine> engine_;  ///< answers for all, and keeps what slots share
+  LayerRange range_;
   std::int32_t given_layers_;
   Room room_;
   std::vector<Slot> slots_;
-  extraction::SharedPlanes shared_;
-  std::optional<extraction::DenseBands> bands_;  ///< made when first needed
-  std::vector<extraction::DenseBands::Maker> makers_;
+  std::unique_ptr<SlabBands> bands_;   ///< made when first needed
   std::optional<SurfaceQuery> query_;  ///< unset: all samples are read
   std::int32_t layers_ = 1;
+  std::int32_t shared_planes_ = kMinSharedPlanes;
   std::uint64_t plane_samples_ = 0;
   std::uint64_t plane_bytes_ = 0;
 };
@@ -187,6 +206,11 @@ class DenseTasks final : public TaskList {
 
 std::unique_ptr<TaskList> dense_tasks(const PlaneInput& input, const RunOptions& options) {
   return std::make_unique<DenseTasks>(input, options);
+}
+
+LayerRange dense_layers(const Volume& volume, const RunOptions& options) {
+  const Affine to_world = options.to_world.value_or(volume.lattice.to_world);
+  return {0, method_of(options.extract).dense(volume, to_world, options.extract)->n_layers()};
 }
 
 }  // namespace mc::pipe

@@ -17,7 +17,12 @@ namespace mc {
 namespace {
 
 std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunOptions& options) {
-  if (is_dense(reader)) return pipe::dense_tasks(pipe::PlaneInput::of(reader), options);
+  if (is_dense(reader)) {
+    if (options.extract.part && is_stream(reader)) {
+      throw Error(ErrorKind::usage, volume_of(reader).name, "a stream cannot be meshed in parts");
+    }
+    return pipe::dense_tasks(pipe::PlaneInput::of(reader), options);
+  }
   return pipe::sparse_tasks(*std::get<std::unique_ptr<LeafReader>>(reader), options);
 }
 
@@ -46,7 +51,7 @@ std::uint64_t counted_content(pipe::TaskList& tasks, std::size_t n_slots, const 
           tasks.count(n, slot, counted[slot]);
         }},
        {true, [&](std::size_t /*n*/, std::size_t slot) {
-          const extraction::TaskTotals& totals = counted[slot].totals;
+          const pipe::TaskTotals& totals = counted[slot].totals;
           most = std::max(most, mesh::content_bytes(totals.n_vertices, totals.n_triangles, vertex));
         }}}};
   base::pipeline(tasks.n_tasks(), n_slots, steps);

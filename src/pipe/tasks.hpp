@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "extract/cubes/surface_sums.hpp"
 #include "mc/mesh.hpp"
+#include "mc/method.hpp"
 #include "mc/pipe.hpp"
 #include "pipe/plane_input.hpp"
 
@@ -17,11 +17,26 @@
 
 namespace mc::pipe {
 
+/// What one task found: of the surface, and on the way to it.
+struct TaskTotals : SurfaceTotals {
+  std::uint64_t n_asked = 0, n_skipped = 0;  ///< as in MeshTotals
+  std::uint64_t n_materials_held = 0;
+
+  /// Adds what a piece of the task found; vertices have been counted.
+  void add_piece(const TaskTotals& piece) {
+    n_triangles += piece.n_triangles;
+    n_boundary_edges += piece.n_boundary_edges;
+    n_materials_held += piece.n_materials_held;
+    bounds.include(piece.bounds);
+    layers.insert(layers.end(), piece.layers.begin(), piece.layers.end());
+  }
+};
+
 /// What a task or a piece leaves behind, in a slot that is used again.
 struct TaskResult {
-  MeshChunk chunk;  ///< index_base counts from this task's first vertex until the pipe moves it
-  extraction::TaskTotals totals;  ///< of the chunk; but vertices are counted of the whole task
-  bool complete = true;           ///< else pieces follow
+  MeshChunk chunk;    ///< index_base counts from this task's first vertex until the pipe moves it
+  TaskTotals totals;  ///< of the chunk; but vertices are counted of the whole task
+  bool complete = true;  ///< else pieces follow
 };
 
 /// How many things are on their way at once, and how large their chunks may grow.
@@ -71,7 +86,19 @@ class TaskList {
   [[nodiscard]] virtual std::uint64_t input_bytes() const { return 0; }
 };
 
+/// Errors   usage: options.extract.part is not of layers that exist, or the method cannot mesh such
+/// a
+///          volume; limit: one layer could hold more vertices than 32-bit ids can name.
 std::unique_ptr<TaskList> dense_tasks(const PlaneInput& input, const RunOptions& options);
 std::unique_ptr<TaskList> sparse_tasks(const LeafReader& reader, const RunOptions& options);
+
+/// The layers that there are, as mc::part_layers().
+LayerRange dense_layers(const Volume& volume, const RunOptions& options);
+LayerRange sparse_layers(const LeafReader& reader, const RunOptions& options);
+
+/// The method that the options name.
+const Method& method_of(const ExtractOptions& options);
+/// options.part, or all layers. Errors   usage: a part that is not within `all`.
+LayerRange chosen_layers(const ExtractOptions& options, const LayerRange& all);
 
 }  // namespace mc::pipe

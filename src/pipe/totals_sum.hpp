@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "extract/cubes/surface_sums.hpp"
 #include "mc/mesh.hpp"
+#include "pipe/tasks.hpp"
 
 namespace mc::pipe {
 
@@ -18,7 +18,7 @@ class TotalsSum {
       totals_.volume = 0;
     }
   }
-  void add(const extraction::TaskTotals& task) {
+  void add(const TaskTotals& task) {
     totals_.n_vertices += task.n_vertices;
     totals_.n_triangles += task.n_triangles;
     totals_.n_boundary_edges += task.n_boundary_edges;
@@ -26,7 +26,7 @@ class TotalsSum {
     totals_.n_asked += task.n_asked;
     totals_.n_skipped += task.n_skipped;
     totals_.n_materials_held += task.n_materials_held;
-    for (const extraction::LayerSum& layer : task.layers) {
+    for (const LayerSum& layer : task.layers) {
       *totals_.area += layer.area;
       *totals_.volume += layer.volume;
     }

@@ -5,11 +5,15 @@
 #include <cassert>
 #include <utility>
 
+#include "extract/cubes/dense_bands.hpp"
 #include "extract/cubes/triangle_kernels.hpp"
 
 namespace mc::extraction {
 
 namespace {
+
+/// Samples of a plane are counted up to this number, whose mesh no budget holds.
+constexpr std::uint64_t kMaxCountedSamples = std::uint64_t{1} << 42U;
 
 /// How far a chunk is complete.
 struct Mark {
@@ -33,22 +37,54 @@ struct Mark {
 
 }  // namespace
 
-DenseExtractor::DenseExtractor(DenseGrid grid) : grid_(std::move(grid)) { shape(); }
+DenseExtractor::DenseExtractor(DenseGrid grid) : grid_(std::move(grid)) {}
 
-void DenseExtractor::shape() {
+/// Allocates when the first slab comes: engines that only answer questions need no planes.
+void DenseExtractor::shape_planes() {
+  if (shaped_) return;
+  shaped_ = true;
   for (PlaneBits& plane : planes_) grid_.classifier.shape(plane);
   k_start_.resize(grid_.classifier.n_rows());
 }
 
-void DenseExtractor::set_part(const IndexBox& part) {
-  grid_.set_part(part);
-  shape();
+void DenseExtractor::set_box(const IndexBox& cells) {
+  grid_.set_part(cells);
+  shaped_ = false;
 }
 
-std::uint64_t DenseExtractor::scratch_bytes(const DenseGrid& grid) {
+std::uint64_t DenseExtractor::scratch_bytes() const {
   // Three planes of its own and two that it shares.
-  return 5 * grid.classifier.plane_bytes() + 7 * grid.classifier.n_rows() * sizeof(std::uint32_t) +
-         edge_batch_bytes(grid);
+  const PlaneClassifier& planes = grid_.classifier;
+  return 5 * planes.plane_bytes() + 7 * planes.n_rows() * sizeof(std::uint32_t) +
+         edge_batch_bytes(grid_);
+}
+
+std::uint64_t DenseExtractor::max_mesh_bytes(std::int32_t n_layers) const {
+  const IndexBox& box = grid_.classifier.box();
+  const auto plane = static_cast<std::uint64_t>(box.extent(0) * box.extent(1));
+  const std::uint64_t cells =
+      std::min(plane, kMaxCountedSamples) * static_cast<std::uint64_t>(n_layers + 1);
+  const ExtractOptions& o = grid_.options;
+  return mesh::content_bytes(3 * cells, kMaxTriangles * cells,
+                             mesh::vertex_bytes(o.precision, o.normals != Normals::none));
+}
+
+std::uint64_t DenseExtractor::least_chunk_bytes() const { return DenseBands::least_bytes(grid_); }
+
+std::unique_ptr<SlabBands> DenseExtractor::bands(std::size_t n_makers) const {
+  return std::make_unique<DenseBands>(grid_, n_makers);
+}
+
+std::uint64_t DenseExtractor::bands_bytes(std::size_t n_makers) const {
+  return DenseBands::scratch_bytes(grid_, n_makers);
+}
+
+void DenseExtractor::share(std::span<SlabEngine* const> others) {
+  own_shared_.reset(2 * (others.size() + 1));
+  for (SlabEngine* other : others) {
+    assert(dynamic_cast<DenseExtractor*>(other) != nullptr);
+    static_cast<DenseExtractor*>(other)->shared_ = &own_shared_;
+  }
 }
 
 /// Makes the bits of a plane. One that slabs share may have been made for another.
@@ -129,7 +165,7 @@ std::uint32_t DenseExtractor::make_layer(const Slab& slab, std::int32_t layer, s
 
 template <class T, bool Swap>
 std::int32_t DenseExtractor::extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1,
-                                           mesh::ChunkRoom& room, TaskTotals& totals) {
+                                           mesh::ChunkRoom& room, SurfaceTotals& totals) {
   VertexPass<T, Swap> pass(grid_, slab, batches_, room, totals.bounds);
   for (std::int32_t plane = l0; plane <= l0 + grid_.reach(); ++plane) {
     load(slab, plane, shared_);
@@ -151,13 +187,14 @@ std::int32_t DenseExtractor::extract_typed(const Slab& slab, std::int32_t l0, st
 }
 
 std::int32_t DenseExtractor::extract(const Slab& slab, std::int32_t l0, std::int32_t l1,
-                                     std::uint64_t most_bytes, MeshChunk& chunk,
-                                     TaskTotals& totals) {
+                                     std::uint64_t max_bytes, MeshChunk& chunk,
+                                     SurfaceTotals& totals) {
   assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers);
   chunk.clear();
   totals.clear();
+  shape_planes();
   mesh::ChunkRoom room(chunk, grid_.options.precision, grid_.options.normals != Normals::none,
-                       most_bytes);
+                       max_bytes);
   const Threshold& threshold = grid_.classifier.threshold();
   const std::int32_t end =
       field::visit_type(threshold.type, [&]<class T>(field::TypeTag<T> /*tag*/) {
@@ -169,8 +206,11 @@ std::int32_t DenseExtractor::extract(const Slab& slab, std::int32_t l0, std::int
   return end;
 }
 
-void DenseExtractor::count(const Slab& slab, std::int32_t l0, std::int32_t l1, TaskTotals& totals) {
+void DenseExtractor::count(const Slab& slab, std::int32_t l0, std::int32_t l1,
+                           SurfaceTotals& totals) {
+  assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers);
   totals.clear();
+  shape_planes();
   load(slab, l0, shared_);
   totals.n_vertices = number_plane(view(l0), 0, bits(l0).ids());
   for (std::int32_t l = l0; l < l1; ++l) {
@@ -184,6 +224,8 @@ void DenseExtractor::count(const Slab& slab, std::int32_t l0, std::int32_t l1, T
 
 std::uint64_t DenseExtractor::count_vertices(const Slab& slab, std::int32_t l0, std::int32_t l1,
                                              bool with_lowest) {
+  assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers);
+  shape_planes();
   load(slab, l0, nullptr);
   std::uint64_t n = with_lowest ? number_plane(view(l0), 0, bits(l0).ids()) : 0;
   for (std::int32_t l = l0; l < l1; ++l) {

@@ -3,14 +3,17 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "extract/bits/shared_planes.hpp"
 #include "extract/cubes/dense_grid.hpp"
-#include "extract/cubes/surface_sums.hpp"
 #include "extract/cubes/vertex_pass.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
+#include "mc/method.hpp"
 #include "mesh/chunk_room.hpp"
 
 // Flying Edges over dense slabs (Schroeder, Maynard, Geveci, LDAV 2015), with one bit a sample
@@ -27,7 +30,7 @@ namespace mc::extraction {
 
 /// Extracts slabs of one volume with one set of options, or of parts of it, one after the other.
 /// Holds scratch: one to a thread.
-class DenseExtractor {
+class DenseExtractor final : public SlabEngine {
  public:
   explicit DenseExtractor(DenseGrid grid);
   DenseExtractor(const Volume& volume, const Affine& to_world, const ExtractOptions& options)
@@ -37,38 +40,38 @@ class DenseExtractor {
                  const IndexBox& part)
       : DenseExtractor(DenseGrid(volume, to_world, options, part)) {}
 
-  /// As DenseGrid's. Allocates nothing where an earlier part had the same size.
-  void set_part(const IndexBox& part);
   /// All samples that cells lie between, those of a closed border's constant layer included.
   [[nodiscard]] IndexBox whole() const { return grid_.classifier.whole(); }
-  /// The samples that the part is made of: its own and those that its normals look at.
-  [[nodiscard]] const IndexBox& samples() const { return grid_.classifier.box(); }
+
   /// Layers of cells, those to a closed border included.
-  [[nodiscard]] std::int32_t n_layers() const { return grid_.n_layers; }
+  [[nodiscard]] std::int32_t n_layers() const override { return grid_.n_layers; }
+  [[nodiscard]] std::int32_t max_layers() const override { return grid_.max_layers(); }
+  [[nodiscard]] std::pair<std::int32_t, std::int32_t> planes_for(std::int32_t l0,
+                                                                 std::int32_t l1) const override {
+    return grid_.planes_for(l0, l1);
+  }
+  [[nodiscard]] std::uint64_t scratch_bytes() const override;
+  [[nodiscard]] std::uint64_t max_mesh_bytes(std::int32_t n_layers) const override;
+  [[nodiscard]] std::uint64_t least_chunk_bytes() const override;
+  [[nodiscard]] bool has_bands() const override { return true; }
+  [[nodiscard]] std::unique_ptr<SlabBands> bands(std::size_t n_makers) const override;
+  [[nodiscard]] std::uint64_t bands_bytes(std::size_t n_makers) const override;
+  /// Slabs of one run then classify the planes between them once.
+  void share(std::span<SlabEngine* const> others) override;
+  void forget() override { own_shared_.forget(); }
+  void set_box(const IndexBox& cells) override;
+  [[nodiscard]] IndexBox samples() const override { return grid_.classifier.box(); }
 
-  /// Bytes of scratch.
-  static std::uint64_t scratch_bytes(const DenseGrid& grid);
-
-  /// Lets slabs of one run classify the planes between them once. `planes` must outlive the run.
-  void share(SharedPlanes* planes) { shared_ = planes; }
-
-  /// Makes the surface of layers from l0 up to l1, or up to the layer with which `chunk` would hold
-  /// more than `most_bytes`: of that there is nothing in it. `slab` holds at least the planes of
-  /// DenseGrid::planes_for(), of these the rows and columns of samples(). Indices in `chunk` count
-  /// from the slab's first vertex. Returns the layer after the last; where that is l0, the vertices
-  /// in plane l0 are not made either.
-  std::int32_t extract(const Slab& slab, std::int32_t l0, std::int32_t l1, std::uint64_t most_bytes,
-                       MeshChunk& chunk, TaskTotals& totals);
+  std::int32_t extract(const Slab& slab, std::int32_t l0, std::int32_t l1, std::uint64_t max_bytes,
+                       MeshChunk& chunk, SurfaceTotals& totals) override;
   /// Makes all of layers [l0, l1).
   void extract(const Slab& slab, std::int32_t l0, std::int32_t l1, MeshChunk& chunk,
-               TaskTotals& totals) {
+               SurfaceTotals& totals) {
     extract(slab, l0, l1, mesh::ChunkRoom::kUnlimited, chunk, totals);
   }
-  /// Only counts.
-  void count(const Slab& slab, std::int32_t l0, std::int32_t l1, TaskTotals& totals);
-  /// Counts the vertices of layers [l0, l1), and those in plane l0 only if `with_lowest`.
+  void count(const Slab& slab, std::int32_t l0, std::int32_t l1, SurfaceTotals& totals) override;
   std::uint64_t count_vertices(const Slab& slab, std::int32_t l0, std::int32_t l1,
-                               bool with_lowest);
+                               bool with_lowest) override;
 
  private:
   static constexpr std::int32_t kNoPlane = -1;
@@ -78,7 +81,7 @@ class DenseExtractor {
   [[nodiscard]] bool owns(std::int32_t plane, std::int32_t l1) const {
     return plane < l1 || l1 == grid_.n_layers;
   }
-  void shape();
+  void shape_planes();
   void load(const Slab& slab, std::int32_t plane, SharedPlanes* shared);
 
   template <class Pass>
@@ -93,10 +96,12 @@ class DenseExtractor {
                            std::uint32_t next, mesh::ChunkRoom& room, Pass& pass);
   template <class T, bool Swap>
   std::int32_t extract_typed(const Slab& slab, std::int32_t l0, std::int32_t l1,
-                             mesh::ChunkRoom& room, TaskTotals& totals);
+                             mesh::ChunkRoom& room, SurfaceTotals& totals);
 
   DenseGrid grid_;
-  SharedPlanes* shared_ = nullptr;
+  SharedPlanes own_shared_;         ///< of a run whose engines share with this one
+  SharedPlanes* shared_ = nullptr;  ///< another engine's
+  bool shaped_ = false;             ///< whether the planes have the shape of the grid
   std::array<PlaneBits, 3> planes_;
   std::vector<std::uint32_t> k_start_;
   EdgeBatches batches_;

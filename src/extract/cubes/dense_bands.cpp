@@ -34,7 +34,8 @@ constexpr std::size_t kRowsApiece = 64;
 
 }  // namespace
 
-DenseBands::DenseBands(DenseGrid grid) : grid_(std::move(grid)) {
+DenseBands::DenseBands(DenseGrid grid, std::size_t n_makers)
+    : grid_(std::move(grid)), makers_(n_makers) {
   for (PlaneBits& plane : planes_) grid_.classifier.shape(plane);
   k_start_.resize(grid_.classifier.n_rows() + 1);
 }
@@ -73,14 +74,14 @@ void DenseBands::load(std::int32_t plane) {
 }
 
 void DenseBands::start(const Slab& slab, std::int32_t l0, std::int32_t l1, bool with_lowest,
-                       std::uint64_t most_bytes) {
+                       std::uint64_t max_bytes) {
   assert(l0 < l1);
   slab_ = &slab;
   layer_ = l0;
   l1_ = l1;
   begun_ = false;
   with_lowest_ = with_lowest;
-  most_ = most_of(grid_, most_bytes);
+  most_ = most_of(grid_, max_bytes);
   n_before_ = 0;
   load(l0);
   n_lower_ = number_plane(view(l0), 0, bits(l0).ids());
@@ -167,7 +168,7 @@ void DenseBands::emit(const Band& band, mesh::ChunkRoom& room) const {
 
 template <class T, bool Swap>
 void DenseBands::make_typed(const Band& band, bool is_first, Maker& maker, mesh::ChunkRoom& room,
-                            TaskTotals& totals) const {
+                            SurfaceTotals& totals) const {
   VertexPass<T, Swap> pass(grid_, *slab_, maker.batches, room, totals.bounds);
   const PlaneIds ids{maker.i_ids.data(), maker.j_ids.data()};
   if (band.of == Band::Of::between) {
@@ -187,7 +188,9 @@ void DenseBands::make_typed(const Band& band, bool is_first, Maker& maker, mesh:
   }
 }
 
-void DenseBands::make(std::size_t n, Maker& maker, MeshChunk& chunk, TaskTotals& totals) const {
+void DenseBands::make(std::size_t n, std::size_t with, MeshChunk& chunk, SurfaceTotals& totals) {
+  assert(n < bands_.size() && with < makers_.size());
+  Maker& maker = makers_[with];
   chunk.clear();
   totals.clear();
   maker.i_ids.resize(grid_.classifier.n_rows());

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "extract/cubes/dense_grid.hpp"
-#include "extract/cubes/surface_sums.hpp"
 #include "extract/cubes/vertex_pass.hpp"
 #include "mc/field.hpp"
+#include "mc/method.hpp"
 
 // Layers whose mesh is too large to be held, cut into bands of rows: the bits of a layer's two
 // planes say how many vertices each row has, so bands are cut to size, and their ids known, before
@@ -17,32 +17,27 @@
 
 namespace mc::extraction {
 
-class DenseBands {
+class DenseBands final : public SlabBands {
  public:
-  /// What makes one band. Scratch: one to a thread.
-  struct Maker {
-    EdgeBatches batches;
-    std::vector<std::uint32_t> i_ids, j_ids;
-  };
-
-  explicit DenseBands(DenseGrid grid);
+  DenseBands(DenseGrid grid, std::size_t n_makers);
 
   /// Bytes that a band's chunk must be allowed: of a row where every edge is crossed.
   static std::uint64_t least_bytes(const DenseGrid& grid);
   /// Bytes of scratch, with so many makers.
   static std::uint64_t scratch_bytes(const DenseGrid& grid, std::size_t n_makers);
 
-  /// Goes to layers [l0, l1) of a slab, which stays as it is until the last of its bands is made;
-  /// with the vertices in plane l0 only if `with_lowest`. Chunks hold at most `most_bytes`.
   void start(const Slab& slab, std::int32_t l0, std::int32_t l1, bool with_lowest,
-             std::uint64_t most_bytes);
-  /// Goes to the next layer. Returns the number of its bands; 0 after the last layer.
-  std::size_t next();
-  /// Makes band n of the layer. Indices in `chunk` count from the first vertex since start().
-  /// Threads: bands may be made side by side, each with a maker of its own.
-  void make(std::size_t n, Maker& maker, MeshChunk& chunk, TaskTotals& totals) const;
+             std::uint64_t max_bytes) override;
+  /// Goes to the next layer and prepares its bands.
+  std::size_t next() override;
+  void make(std::size_t n, std::size_t maker, MeshChunk& chunk, SurfaceTotals& totals) override;
 
  private:
+  /// Scratch of one thread.
+  struct Maker {
+    EdgeBatches batches;
+    std::vector<std::uint32_t> i_ids, j_ids;
+  };
   /// Rows [first, last) of one of the planes, or of what lies between them.
   struct Band {
     enum class Of : std::uint8_t { lower, between, upper };
@@ -71,7 +66,7 @@ class DenseBands {
   void emit(const Band& band, mesh::ChunkRoom& room) const;
   template <class T, bool Swap>
   void make_typed(const Band& band, bool is_first, Maker& maker, mesh::ChunkRoom& room,
-                  TaskTotals& totals) const;
+                  SurfaceTotals& totals) const;
 
   DenseGrid grid_;
   std::array<PlaneBits, 2> planes_;
@@ -83,6 +78,7 @@ class DenseBands {
   std::uint32_t n_lower_ = 0, n_between_ = 0, n_upper_ = 0;  ///< vertices
   std::uint64_t n_before_ = 0;  ///< vertices made since start(), those of this layer aside
   std::vector<Band> bands_;
+  std::vector<Maker> makers_;
 };
 
 }  // namespace mc::extraction

@@ -1,46 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
-#include <vector>
+#include <cmath>
+#include <cstddef>
 
 #include "extract/cubes/edge_vertex.hpp"
-#include "mc/mesh.hpp"
+#include "mc/method.hpp"
 
 // Figures of the surface that are gathered while it is made.
 
 namespace mc::extraction {
-
-/// Area and volume of the surface in one layer of cells. Summed a layer at a time, so that the
-/// total does not depend on how layers were dealt to threads.
-struct LayerSum {
-  double area = 0;
-  double volume = 0;
-};
-
-/// What one task found.
-struct TaskTotals {
-  std::uint64_t n_vertices = 0;
-  std::uint64_t n_triangles = 0;
-  std::uint64_t n_boundary_edges = 0;
-  Bounds bounds;
-  std::vector<LayerSum> layers;  ///< only when measured
-  std::uint64_t n_asked = 0, n_skipped = 0;
-  std::uint64_t n_materials_held = 0;
-
-  /// Adds what a piece of the task found; vertices have been counted.
-  void add_piece(const TaskTotals& piece) {
-    n_triangles += piece.n_triangles;
-    n_boundary_edges += piece.n_boundary_edges;
-    n_materials_held += piece.n_materials_held;
-    bounds.include(piece.bounds);
-    layers.insert(layers.end(), piece.layers.begin(), piece.layers.end());
-  }
-  void clear() {
-    layers.clear();
-    *this = {0, 0, 0, {}, std::move(layers)};
-  }
-};
 
 /// The middle of a box of samples, in lattice units.
 inline Vec3 middle_of(const IndexBox& box) {

@@ -169,7 +169,7 @@ void SparseExtractor::write_vertices(const Index3& block, bool at_border, Sample
 
 template <class T>
 std::size_t SparseExtractor::extract_typed(std::size_t first, std::size_t last,
-                                           mesh::ChunkRoom& room, TaskTotals& totals) {
+                                           mesh::ChunkRoom& room, SurfaceTotals& totals) {
   using Sampler = BlockSampler<T>;
   const ExtractOptions& options = plan_.options();
   Sampler sampler(plan_.reader(), plan_.index(), plan_.box(), ring_scratch_.data());
@@ -227,14 +227,15 @@ std::size_t SparseExtractor::extract_typed(std::size_t first, std::size_t last,
   return n;
 }
 
-std::size_t SparseExtractor::extract(std::size_t first, std::size_t last, std::uint64_t most_bytes,
-                                     MeshChunk& chunk, TaskTotals& totals) {
+std::size_t SparseExtractor::extract(std::size_t first, std::size_t last, std::uint64_t max_bytes,
+                                     MeshChunk& chunk, SurfaceTotals& totals) {
+  assert(first < last && last <= plan_.n_own());
   chunk.clear();
   totals.clear();
   known_.resize(kKnown);
   ring_scratch_.resize(kRingBytes);
   const ExtractOptions& options = plan_.options();
-  mesh::ChunkRoom room(chunk, options.precision, options.normals != Normals::none, most_bytes);
+  mesh::ChunkRoom room(chunk, options.precision, options.normals != Normals::none, max_bytes);
   const std::size_t end =
       field::visit_type(plan_.threshold().type, [&]<class T>(field::TypeTag<T> /*tag*/) {
         return extract_typed<T>(first, last, room, totals);
@@ -244,7 +245,8 @@ std::size_t SparseExtractor::extract(std::size_t first, std::size_t last, std::u
   return end;
 }
 
-void SparseExtractor::count(std::size_t first, std::size_t last, TaskTotals& totals) {
+void SparseExtractor::count(std::size_t first, std::size_t last, SurfaceTotals& totals) {
+  assert(first <= last && last <= plan_.n_own());
   totals.clear();
   totals.n_vertices = plan_.first_vertex(last) - plan_.first_vertex(first);
   BlockWalk<2> walk(plan_.blocks());

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "extract/sparse/sparse_plan.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
+#include "mc/method.hpp"
 #include "mesh/chunk_room.hpp"
 
 // Flying Edges over the blocks of a sparse volume: nothing is densified. A block's samples are
@@ -29,17 +31,14 @@
 namespace mc::extraction {
 
 /// Makes runs of blocks. Holds scratch: one to a thread.
-class SparseExtractor {
+class SparseExtractor final : public BlockWorker {
  public:
   SparseExtractor(const SparsePlan& plan, const Affine& to_world);
 
-  /// Makes blocks from `first` up to `last`, or up to the block with which `chunk` could hold more
-  /// than `most_bytes`. Indices in `chunk` count from the run's first vertex. Returns the block
-  /// after the last. Errors: limit, where a triangle spans more than 2^32 vertex ids.
-  std::size_t extract(std::size_t first, std::size_t last, std::uint64_t most_bytes,
-                      MeshChunk& chunk, TaskTotals& totals);
-  /// Only counts, from the plan's bits.
-  void count(std::size_t first, std::size_t last, TaskTotals& totals);
+  std::size_t extract(std::size_t first, std::size_t last, std::uint64_t max_bytes,
+                      MeshChunk& chunk, SurfaceTotals& totals) override;
+  /// Counts from the plan's bits.
+  void count(std::size_t first, std::size_t last, SurfaceTotals& totals) override;
 
   /// Bytes of scratch, for what is allocated once.
   static std::uint64_t scratch_bytes();
@@ -58,7 +57,7 @@ class SparseExtractor {
 
   template <class T>
   std::size_t extract_typed(std::size_t first, std::size_t last, mesh::ChunkRoom& room,
-                            TaskTotals& totals);
+                            SurfaceTotals& totals);
   template <class Sampler, class Writer>
   void write_vertices(const Index3& block, bool at_border, Sampler& sampler, Writer& writer);
   void emit_triangles(const Walk& walk, std::uint64_t base, const BlockBits& above,
@@ -79,6 +78,34 @@ class SparseExtractor {
   LeafQueue queue_;
   std::vector<std::byte> ring_scratch_;
   std::tuple<EdgeBatch<float>, EdgeBatch<double>> batches_;
+};
+
+/// A plan and what makes its blocks.
+class SparseEngine final : public BlockEngine {
+ public:
+  SparseEngine(const LeafReader& reader, const Affine& to_world, const ExtractOptions& options)
+      : plan_(reader, options), to_world_(to_world) {}
+
+  [[nodiscard]] std::size_t n_blocks() const override { return plan_.n_own(); }
+  [[nodiscard]] std::uint64_t first_vertex(std::size_t n) const override {
+    return plan_.first_vertex(n);
+  }
+  [[nodiscard]] std::unique_ptr<BlockWorker> worker() const override {
+    return std::make_unique<SparseExtractor>(plan_, to_world_);
+  }
+  [[nodiscard]] std::uint64_t plan_bytes() const override { return plan_.bytes(); }
+  [[nodiscard]] std::uint64_t worker_bytes() const override {
+    return SparseExtractor::scratch_bytes();
+  }
+  [[nodiscard]] std::uint64_t max_mesh_bytes(std::size_t n_blocks) const override {
+    return SparseExtractor::most_bytes_of(n_blocks, plan_.options());
+  }
+  /// A cell's edges, each of four cells, make two triangles fewer.
+  [[nodiscard]] std::uint64_t max_triangles_per_vertex() const override { return 4; }
+
+ private:
+  SparsePlan plan_;
+  Affine to_world_;
 };
 
 }  // namespace mc::extraction

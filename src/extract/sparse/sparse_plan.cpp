@@ -11,6 +11,8 @@
 
 namespace mc::extraction {
 
+using field::kBlockSize;
+
 namespace {
 
 /// No vertices, nor cells of its own: not a block of the surface.
@@ -21,6 +23,9 @@ Index3 neighbour(const Index3& block, std::size_t n) {
           block[1] + static_cast<std::int32_t>(n >> 1U & 1U),
           block[2] + static_cast<std::int32_t>(n >> 2U)};
 }
+
+/// More layers than there are, with space for the neighbours of the last.
+constexpr LayerRange kAllLayers{-kReach, kReach};
 
 LeafSide side_of(const Mask512& bits) {
   std::uint64_t any = 0;
@@ -41,6 +46,27 @@ const Mask512 SparsePlan::kAllAbove = [] {
   return all;
 }();
 
+LayerRange block_layers(const LeafReader& reader, const ExtractOptions& options) {
+  LayerRange layers{kReach, -kReach};
+  const auto include = [&](std::int32_t lowest, std::int32_t size) {
+    layers.first = std::min(layers.first, block_of(lowest) - 1);  // its cells end in the block
+    layers.last = std::max(layers.last, block_of(lowest) + size / kBlockSize);
+  };
+  for (const Tile& tile : reader.tiles()) include(tile.origin[2], tile.size);
+  if (const auto leaves = reader.leaves(); !leaves.empty()) {
+    include(leaves.front()[2], kBlockSize);
+    include(leaves.back()[2], kBlockSize);
+  }
+  if (options.region) {
+    const bool capped = options.border != Border::open;
+    const std::int32_t lo = block_of(options.region->lo[2] - (capped ? 1 : 0));
+    const std::int32_t hi = block_of(options.region->hi[2] + (capped ? 1 : 0)) + 1;
+    layers = capped ? LayerRange{lo, hi}
+                    : LayerRange{std::max(layers.first, lo), std::min(layers.last, hi)};
+  }
+  return layers.first < layers.last ? layers : LayerRange{};
+}
+
 SparsePlan::SparsePlan(const LeafReader& reader, const ExtractOptions& options)
     : reader_(reader),
       options_(options),
@@ -48,6 +74,7 @@ SparsePlan::SparsePlan(const LeafReader& reader, const ExtractOptions& options)
       box_(options.region.value_or(kAllSamples)),
       capped_(options.region && options.border != Border::open),
       above_outside_((options.border == Border::solid) == (options.inside == Inside::above)),
+      layers_(options.part.value_or(kAllLayers)),
       index_(reader, threshold_) {
   find_blocks(classify_leaves());
   count_vertices();
@@ -85,12 +112,18 @@ LeafSide SparsePlan::classify_leaf(std::size_t n, const std::byte* values, Mask5
 }
 
 std::vector<LeafSide> SparsePlan::classify_leaves() {
-  const std::size_t n_leaves = reader_.leaves().size();
-  std::vector<LeafSide> sides(n_leaves);
-  pool_.resize((n_leaves + BitPool::kGroup - 1) / BitPool::kGroup);
+  const std::span<const Index3> leaves = reader_.leaves();
+  std::vector<LeafSide> sides(leaves.size());  // those that no bits depend on: any
+  const auto layer_of = [](const Index3& leaf) { return field::block_of(leaf[2]); };
+  const auto lowest = std::ranges::lower_bound(leaves, layers_.first, {}, layer_of);
+  const auto behind = std::partition_point(
+      lowest, leaves.end(), [&](const Index3& leaf) { return reaches(layer_of(leaf)); });
+  const auto first_leaf = static_cast<std::size_t>(lowest - leaves.begin());
+  const auto n_leaves = static_cast<std::size_t>(behind - leaves.begin());
+  pool_.resize((n_leaves - first_leaf + BitPool::kGroup - 1) / BitPool::kGroup);
   base::for_ranges(pool_.n_groups(), 1, [&](std::size_t begin, std::size_t end) {
     LeafQueue queue(reader_);
-    std::size_t ahead = begin * BitPool::kGroup;
+    std::size_t ahead = first_leaf + begin * BitPool::kGroup;
     const auto push = [&] {
       queue.push(ahead < n_leaves ? ahead : Block::kConstant);
       ++ahead;
@@ -99,8 +132,8 @@ std::vector<LeafSide> SparsePlan::classify_leaves() {
     std::vector<Mask512> mixed(BitPool::kGroup);
     for (std::size_t g = begin; g < end; ++g) {
       std::size_t n_mixed = 0;
-      const std::size_t last = std::min(n_leaves, (g + 1) * BitPool::kGroup);
-      for (std::size_t n = g * BitPool::kGroup; n < last; ++n) {
+      const std::size_t last = std::min(n_leaves, first_leaf + (g + 1) * BitPool::kGroup);
+      for (std::size_t n = first_leaf + g * BitPool::kGroup; n < last; ++n) {
         sides[n] = classify_leaf(n, queue.pop(), mixed[n_mixed]);
         n_mixed += sides[n] == LeafSide::mixed ? 1 : 0;
         push();
@@ -125,6 +158,7 @@ void SparsePlan::find_blocks(const std::vector<LeafSide>& sides) {
     }
     block.bits = BitPool::place(group, n++);
   }
+  std::erase_if(blocks_, [&](const SurfaceBlock& b) { return !reaches(b.at[2]); });
   if (capped_) {
     find_capped_blocks(sides);
   } else if (options_.region) {
@@ -211,6 +245,8 @@ std::vector<Index3> SparsePlan::region_faces() const {
       hi[a] = std::min(hi[a], stored.hi[a]);
     }
   }
+  lo[2] = std::max(lo[2], layers_.first);
+  hi[2] = std::min(hi[2], layers_.last + 1);
   std::vector<Index3> faces;
   for (std::int32_t z = lo[2]; z <= hi[2]; ++z) {
     for (std::int32_t y = lo[1]; y <= hi[1]; ++y) {
@@ -286,6 +322,9 @@ void SparsePlan::count_vertices() {
     }
   });
   std::erase_if(blocks_, [](const SurfaceBlock& b) { return b.n_vertices == kNothing; });
+  const auto is_own = [&](const SurfaceBlock& b) { return b.at[2] < layers_.last; };
+  n_own_ =
+      static_cast<std::size_t>(std::ranges::partition_point(blocks_, is_own) - blocks_.begin());
   std::uint64_t id = 0;
   first_.reserve(blocks_.size() / kStride + 1);
   for (std::size_t n = 0; n < blocks_.size(); ++n) {

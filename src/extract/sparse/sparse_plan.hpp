@@ -53,7 +53,15 @@ struct BlockSamples {
   BlockBits bits;
 };
 
+/// The layers of blocks that may hold some of the surface, by the blocks' index along k. Cost: a
+/// look at all tiles.
+LayerRange block_layers(const LeafReader& reader, const ExtractOptions& options);
+
 /// What all runs of one extraction share. Constant once built.
+///
+/// Of a part, only leaves are read whose samples its bits depend on: those of its own layers of
+/// blocks and of the two above. The vertices of the next layer are counted like its own, so that
+/// indices continue there; what lies further up is only known as far as the layers below need it.
 class SparsePlan {
  public:
   /// Errors: limit, where the volume reaches past the indices that fit.
@@ -62,7 +70,10 @@ class SparsePlan {
   SparsePlan(const LeafReader& reader, const ExtractOptions& options);
 
   [[nodiscard]] std::uint64_t bytes() const;
+  /// All blocks that are known: first the part's own, then those above.
   [[nodiscard]] std::span<const SurfaceBlock> blocks() const { return blocks_; }
+  /// Blocks to be made, which come first.
+  [[nodiscard]] std::size_t n_own() const { return n_own_; }
   /// The id of the first vertex of block n, or the number of all.
   [[nodiscard]] std::uint64_t first_vertex(std::size_t n) const;
 
@@ -95,6 +106,10 @@ class SparsePlan {
   static const Mask512 kAllBelow, kAllAbove;
   static constexpr std::size_t kStride = 16;  // blocks to a known id
 
+  /// Whether bits of a block of this layer are needed.
+  [[nodiscard]] bool reaches(std::int32_t layer) const {
+    return layers_.first <= layer && layer - 2 < layers_.last;
+  }
   std::vector<LeafSide> classify_leaves();
   LeafSide classify_leaf(std::size_t n, const std::byte* values, Mask512& bits) const;
   void find_blocks(const std::vector<LeafSide>& sides);
@@ -116,9 +131,11 @@ class SparsePlan {
   IndexBox box_;
   bool capped_;
   bool above_outside_;
+  LayerRange layers_;  ///< the part's, or all
   BlockIndex index_;
   BitPool pool_;
   std::vector<SurfaceBlock> blocks_;
+  std::size_t n_own_ = 0;
   std::vector<std::uint64_t> first_;  ///< id of the first vertex of every kStride-th block
 };
 

@@ -76,9 +76,9 @@ void compare_parts(const Index3& dims, std::uint64_t first_seed) {
       extraction::DenseExtractor extractor(reader.volume(), skewed(), o);
       for (int n = 0; n < 4; ++n) {
         const IndexBox part = random_part(extractor.whole(), random);
-        extractor.set_part(part);
+        extractor.set_box(part);
         MeshChunk chunk;
-        extraction::TaskTotals totals;
+        SurfaceTotals totals;
         extractor.extract(cut_out(samples, dims, extractor.samples()), 0, extractor.n_layers(),
                           chunk, totals);
         ReferenceExtractor<T> reference(samples, dims, o, skewed());
@@ -117,7 +117,7 @@ TEST(DensePartsFloat, CountBoundaryEdgesOfEveryFaceThatIsNotCapped) {
   const MemorySlabs reader(samples, dims);
   extraction::DenseExtractor extractor(reader.volume(), {}, o, {{-1, 3, 4}, {12, 8, 12}});
   MeshChunk chunk;
-  extraction::TaskTotals totals;
+  SurfaceTotals totals;
   extractor.extract(cut_out(samples, dims, extractor.samples()), 0, extractor.n_layers(), chunk,
                     totals);
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
