@@ -124,13 +124,14 @@ struct Layer {
       which |= std::size_t{plane.at(i + (c & 1), j + (c >> 1 & 1))} << c;
     }
     for (std::size_t e = 0; e < 3U * kCases[which].n_triangles; ++e) {
-      const auto [corner, axis] = extraction::edge_ends(kCases[which].edges[e]);
-      const auto c = static_cast<std::size_t>(corner);
+      const extraction::CellEdge edge = kCases[which].edges[e];
+      const std::size_t axis = edge.axis();
+      const std::size_t c = edge.lower();
       const std::size_t n = (j + (c >> 1 & 1)) * kSide + i + (c & 1);
       if (axis == 2) {
         wanted.push_back(plain_k[n]);
       } else {
-        wanted.push_back(((c & 4) == 0 ? plain_lower : plain_upper)[2 * n + std::size_t(axis)]);
+        wanted.push_back(((c & 4) == 0 ? plain_lower : plain_upper)[2 * n + axis]);
       }
     }
   }

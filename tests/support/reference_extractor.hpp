@@ -216,11 +216,11 @@ class ReferenceExtractor {
     const bool flip = (o_.inside == Inside::below) != (to_world_.determinant() < 0);
     for (std::size_t t = 0; t < row.n_triangles; ++t) {
       std::array<std::uint32_t, 3> ids{};
-      std::array<int, 3> edges{row.edges[3 * t], row.edges[3 * t + 1], row.edges[3 * t + 2]};
+      std::array<extraction::CellEdge, 3> edges{row.edges[3 * t], row.edges[3 * t + 1],
+                                                row.edges[3 * t + 2]};
       for (std::size_t n = 0; n < 3; ++n) {
-        const auto ends = extraction::edge_ends(edges[n]);
-        ids[n] = ids_.at(
-            {i + (ends.corner & 1), j + (ends.corner >> 1 & 1), k + (ends.corner >> 2), ends.axis});
+        const Index3 lower = edges[n].lower().of({i, j, k});
+        ids[n] = ids_.at({lower[0], lower[1], lower[2], static_cast<int>(edges[n].axis())});
       }
       if (flip) {
         std::swap(ids[1], ids[2]);
@@ -233,14 +233,14 @@ class ReferenceExtractor {
   }
 
   /// Adds a triangle's area vector to its three vertices, from places relative to its cell.
-  void add_area(const std::array<std::uint32_t, 3>& ids, const std::array<int, 3>& edges) {
+  void add_area(const std::array<std::uint32_t, 3>& ids,
+                const std::array<extraction::CellEdge, 3>& edges) {
     const auto& m = to_world_.m;
     std::array<Vec3, 3> p;
     for (std::size_t n = 0; n < 3; ++n) {
-      const auto ends = extraction::edge_ends(edges[n]);
-      Vec3 q{static_cast<double>(ends.corner & 1), static_cast<double>(ends.corner >> 1 & 1),
-             static_cast<double>(ends.corner >> 2)};
-      q[static_cast<std::size_t>(ends.axis)] += parameters_[ids[n]];
+      Vec3 q;
+      for (const extraction::Axis a : extraction::kAxes) q[a] = edges[n].lower().along(a);
+      q[edges[n].axis()] += parameters_[ids[n]];
       for (std::size_t r = 0; r < 3; ++r) {
         p[n][r] = (m[4 * r] * q[0] + m[4 * r + 1] * q[1]) + m[4 * r + 2] * q[2];
       }

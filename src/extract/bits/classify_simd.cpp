@@ -11,6 +11,8 @@
 #include "extract/bits/classify-inl.hpp"
 
 #if HWY_ONCE
+#include <cassert>
+
 namespace mc::extraction {
 
 namespace {
@@ -19,6 +21,8 @@ HWY_EXPORT(classify_rows);
 
 void classify_rows(const Threshold& threshold, const SampleRows& rows, std::uint64_t* words,
                    std::size_t words_per_row) {
+  assert(words_per_row >= (rows.n_samples + 63) / 64);
+  assert(rows.n_rows == 0 || (rows.first != nullptr && words != nullptr));
   HWY_DYNAMIC_DISPATCH(classify_rows)(threshold, rows, words, words_per_row);
 }
 

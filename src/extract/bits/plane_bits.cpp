@@ -25,7 +25,7 @@ PlaneClassifier::PlaneClassifier(const Volume& volume, const ExtractOptions& opt
 IndexBox PlaneClassifier::whole() const { return grown(region_, pad_); }
 
 void PlaneClassifier::set_part(const IndexBox& part) {
-  assert(whole().contains(part));
+  assert(whole().contains(part) && !is_empty(part));
   part_ = part;
   known_ = common_part(part, region_);
   box_ = common_part(grown(part, ring_), region_);
@@ -80,6 +80,8 @@ void PlaneClassifier::pad_row(std::uint64_t* row) const {
 
 SampleRows PlaneClassifier::rows_of(const Slab& slab, std::int32_t j, std::int32_t k,
                                     std::size_t n_rows) const {
+  assert(slab.k0 <= k && static_cast<std::size_t>(k - slab.k0) < slab.planes.size());
+  assert(slab.j0 <= j && slab.i0 <= known_.lo[0]);
   const std::byte* first =
       slab.planes[static_cast<std::size_t>(k - slab.k0)] +
       static_cast<std::size_t>(j - slab.j0) * slab.row_stride_bytes +
@@ -131,6 +133,9 @@ void PlaneClassifier::classify_samples(const Slab& slab, std::int32_t j, std::in
 
 void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t j0, std::size_t j1,
                                PlaneBits& out) const {
+  assert(0 <= plane && plane < n_planes());
+  assert(j0 <= j1 && j1 <= n_rows_);
+  assert(out.words.size() == n_words_ * n_rows_ + 1);  // shape() came first
   const auto row = [&](std::size_t j) { return out.words.data() + j * n_words_; };
   const auto n_before = static_cast<std::size_t>(known_.lo[1] - part_.lo[1]);
   const auto n_behind = static_cast<std::size_t>(part_.hi[1] - known_.hi[1]);
@@ -156,6 +161,8 @@ void PlaneClassifier::classify(const Slab& slab, std::int32_t plane, std::size_t
 }
 
 void PlaneClassifier::take_columns(PlaneBits& plane) const {
+  assert(plane.words.size() == n_words_ * n_rows_ + 1);
+  assert(plane.first_column.size() > (n_rows_ - 1) / 64);
   const std::size_t last = row_samples_ - 1;
   for (std::size_t w = 0; 64 * w < n_rows_; ++w) {
     std::uint64_t first_word = 0;

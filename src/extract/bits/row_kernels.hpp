@@ -26,6 +26,16 @@ struct BitPlane {
   [[nodiscard]] std::size_t words_in_use() const { return n_samples <= 64 ? 1 : words_per_row; }
 };
 
+/// Whether rows are padded as the kernels need them, and there is a row of cells.
+[[nodiscard]] inline bool is_padded(const BitPlane& plane) {
+  return plane.words != nullptr && plane.cells != nullptr && plane.n_rows >= 1 &&
+         plane.n_samples >= 1 && plane.words_per_row == padded_words(plane.n_samples);
+}
+/// Whether two planes have rows of the same shape, and share the row of cells.
+[[nodiscard]] inline bool same_shape(const BitPlane& a, const BitPlane& b) {
+  return is_padded(a) && is_padded(b) && a.n_samples == b.n_samples && a.n_rows == b.n_rows;
+}
+
 /// Ids that follow from the number of crossed edges: of the first i- and the first j-vertex of each
 /// row, or of the first k-vertex of each row.
 struct PlaneIds {

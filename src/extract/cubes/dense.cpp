@@ -35,6 +35,11 @@ struct Mark {
   }
 };
 
+[[maybe_unused]] bool holds(const Slab& slab, const std::pair<std::int32_t, std::int32_t>& planes) {
+  return slab.k0 <= planes.first &&
+         planes.second <= slab.k0 + static_cast<std::int64_t>(slab.planes.size());
+}
+
 }  // namespace
 
 DenseExtractor::DenseExtractor(DenseGrid grid) : grid_(std::move(grid)) {}
@@ -189,7 +194,8 @@ std::int32_t DenseExtractor::extract_typed(const Slab& slab, std::int32_t l0, st
 std::int32_t DenseExtractor::extract(const Slab& slab, std::int32_t l0, std::int32_t l1,
                                      std::uint64_t max_bytes, MeshChunk& chunk,
                                      SurfaceTotals& totals) {
-  assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers);
+  assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers && l1 - l0 <= grid_.max_layers());
+  assert(holds(slab, planes_for(l0, l1)));
   chunk.clear();
   totals.clear();
   shape_planes();

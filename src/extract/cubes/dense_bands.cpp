@@ -75,7 +75,8 @@ void DenseBands::load(std::int32_t plane) {
 
 void DenseBands::start(const Slab& slab, std::int32_t l0, std::int32_t l1, bool with_lowest,
                        std::uint64_t max_bytes) {
-  assert(l0 < l1);
+  assert(0 <= l0 && l0 < l1 && l1 <= grid_.n_layers);
+  assert(max_bytes >= least_bytes(grid_));
   slab_ = &slab;
   layer_ = l0;
   l1_ = l1;
@@ -163,6 +164,7 @@ void DenseBands::emit(const Band& band, mesh::ChunkRoom& room) const {
   for (std::size_t j = band.first; j < end; ++j) crossings += row_crossings(j);
   Buffer<std::uint32_t>& indices = room.chunk().indices;
   indices.resize(indices_within(crossings) + kEmitSlack);
+  assert(band.first <= end);
   indices.resize(emit_triangles(cells, band.first, end, grid_.placement.flip, indices.data()));
 }
 

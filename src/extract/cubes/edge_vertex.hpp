@@ -31,11 +31,11 @@ using Real =
 /// An edge of the lattice, named by its lower sample.
 struct LatticeEdge {
   Index3 lower;
-  int axis;
+  Axis axis;
 };
 
-inline Index3 step(Index3 p, int axis, std::int32_t by = 1) {
-  p[static_cast<std::size_t>(axis)] += by;
+inline Index3 step(Index3 p, Axis axis, std::int32_t by = 1) {
+  p[axis] += by;
   return p;
 }
 
@@ -186,8 +186,8 @@ class EdgeVertices {
 
   /// Whether the edge leads to the layer around the box: -1 at its lower end, 1 at its upper.
   [[nodiscard]] int leads_out(const LatticeEdge& e) const noexcept {
-    const auto a = static_cast<std::size_t>(e.axis);
-    return e.lower[a] < sampler_.box().lo[a] ? -1 : e.lower[a] >= sampler_.box().hi[a] ? 1 : 0;
+    const std::int32_t at = e.lower[e.axis];
+    return at < sampler_.box().lo[e.axis] ? -1 : at >= sampler_.box().hi[e.axis] ? 1 : 0;
   }
 
   /// The parameter of an edge to the layer outside, which is cut next to the border sample.
@@ -255,33 +255,28 @@ class EdgeVertices {
 
   /// The case of the cell whose lowest corner is `cell`; corners outside the box count as the
   /// layer.
-  [[nodiscard]] unsigned case_of(const Index3& cell) const noexcept {
-    unsigned out = 0;
-    for (unsigned c = 0; c < 8; ++c) {
-      const Index3 p = corner_of(cell, static_cast<int>(c));
-      const bool above = sampler_.box().contains(p) ? is_above(sampler_.raw(p), rules_.threshold)
-                                                    : rules_.above_there;
-      out |= static_cast<unsigned>(above) << c;
+  [[nodiscard]] CellCase case_of(const Index3& cell) const noexcept {
+    CellCase out;
+    for (std::size_t n = 0; n < kCorners; ++n) {
+      const Corner corner(n);
+      const Index3 p = corner.of(cell);
+      out.set(corner, sampler_.box().contains(p) ? is_above(sampler_.raw(p), rules_.threshold)
+                                                 : rules_.above_there);
     }
     return out;
   }
 
  private:
-  static Index3 corner_of(const Index3& cell, int corner) {
-    return {cell[0] + (corner & 1), cell[1] + ((corner >> 1) & 1), cell[2] + ((corner >> 2) & 1)};
-  }
-  static LatticeEdge edge_of(const Index3& cell, int edge) {
-    const EdgeEnds ends = edge_ends(edge);
-    return {corner_of(cell, ends.corner), ends.axis};
+  static LatticeEdge edge_of(const Index3& cell, CellEdge edge) {
+    return {edge.lower().of(cell), edge.axis()};
   }
   /// The vertex on an edge of a cell, in the world but for translation, relative to the cell's
   /// lowest corner.
-  [[nodiscard]] Vec3 within_cell(const Index3& cell, int edge) const noexcept {
-    const int corner = edge_ends(edge).corner;
-    Vec3 p{static_cast<double>(corner & 1), static_cast<double>(corner >> 1 & 1),
-           static_cast<double>(corner >> 2)};
+  [[nodiscard]] Vec3 within_cell(const Index3& cell, CellEdge edge) const noexcept {
     const LatticeEdge e = edge_of(cell, edge);
-    p[static_cast<std::size_t>(e.axis)] += static_cast<double>(parameter(e));
+    Vec3 p;
+    for (const Axis axis : kAxes) p[axis] = edge.lower().along(axis);
+    p[e.axis] += static_cast<double>(parameter(e));
     return rules_.placement.linear(p);
   }
 
@@ -308,7 +303,7 @@ class EdgeVertices {
     const bool lower_above =
         lower_in ? is_above(sampler_.raw(e.lower), rules_.threshold) : rules_.above_there;
     Vec3 g{};
-    g[static_cast<std::size_t>(e.axis)] = lower_above == rules_.solid_above ? 1 : -1;
+    g[e.axis] = lower_above == rules_.solid_above ? 1 : -1;
     Vec3 n = rules_.placement.turned(g);
     normalise(n);
     return n;
@@ -317,8 +312,8 @@ class EdgeVertices {
   /// The sum of the area vectors of all triangles at the vertex: cells in order, triangles in table
   /// order, whatever slab or block they belong to.
   [[nodiscard]] Vec3 face_sum(const LatticeEdge& e) const noexcept {
-    const int u = e.axis == 0 ? 1 : 0;
-    const int v = e.axis == 2 ? 1 : 2;
+    const Axis u = kAxes[e.axis == 0 ? 1 : 0];
+    const Axis v = kAxes[e.axis == 2 ? 1 : 2];
     Vec3 sum{};
     for (int n = 0; n < 4; ++n) {
       const Index3 cell = step(step(e.lower, u, (n & 1) - 1), v, (n >> 1) - 1);

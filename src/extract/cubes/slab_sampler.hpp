@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -23,10 +24,13 @@ class SlabSampler {
 
   [[nodiscard]] const IndexBox& box() const noexcept { return box_; }
   [[nodiscard]] const std::byte* row(std::int32_t j, std::int32_t k) const noexcept {
+    assert(slab_.k0 <= k && static_cast<std::size_t>(k - slab_.k0) < slab_.planes.size());
+    assert(slab_.j0 <= j);
     return slab_.planes[static_cast<std::size_t>(k - slab_.k0)] +
            static_cast<std::size_t>(j - slab_.j0) * slab_.row_stride_bytes;
   }
   [[nodiscard]] T raw(const Index3& p) const noexcept {
+    assert(box_.contains(p));
     return field::load_sample<T, Swap>(row(p[1], p[2]) +
                                        static_cast<std::size_t>(p[0] - slab_.i0) * sizeof(T));
   }

@@ -50,7 +50,7 @@ void pack_ids(const CellLayer& l, std::size_t j0, std::size_t j1, std::uint32_t*
 
 /// Where the vertex of a cell's edge is among sixteen ids: each row's id at the cell, then at the
 /// next one.
-constexpr std::uint8_t lane_of_edge(std::size_t edge) {
+constexpr std::uint8_t lane_of_edge(CellEdge edge) {
   return static_cast<std::uint8_t>(edge < 4 ? 2 * edge : edge + 4);
 }
 

@@ -11,6 +11,8 @@
 #include "extract/cubes/triangle_kernels-inl.hpp"
 
 #if HWY_ONCE
+#include <cassert>
+
 namespace mc::extraction {
 
 namespace {
@@ -20,10 +22,15 @@ HWY_EXPORT(count_triangles);
 
 std::size_t emit_triangles(const CellLayer& layer, std::size_t j0, std::size_t j1, bool flip,
                            std::uint32_t* out) {
+  assert(same_shape(layer.lower, layer.upper));
+  assert(j0 <= j1 && j1 < layer.lower.n_rows && out != nullptr);
+  assert(layer.lower_ids.i != nullptr && layer.lower_ids.j != nullptr);
+  assert(layer.upper_ids.i != nullptr && layer.upper_ids.j != nullptr && layer.k_ids != nullptr);
   return HWY_DYNAMIC_DISPATCH(emit_triangles)(layer, j0, j1, flip, out);
 }
 
 std::uint64_t count_triangles(const BitPlane& lower, const BitPlane& upper) {
+  assert(same_shape(lower, upper));
   return HWY_DYNAMIC_DISPATCH(count_triangles)(lower, upper);
 }
 

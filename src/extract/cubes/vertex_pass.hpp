@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -54,6 +55,7 @@ class VertexPass {
   /// made when there are enough of them, or by flush(); none once the chunk is full.
   void take(std::int32_t k) {
     if (list.n == 0) return;
+    assert(list.n <= list.room);
     const std::size_t first = batch_.n;
     batch_.n += list.n;
     std::fill_n(batch_.k.begin() + static_cast<std::ptrdiff_t>(first), list.n, k);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -57,10 +59,13 @@ struct EdgeBatch {
   }
   template <class V>
   void repeat(Buffer<V>& buffer) const {
+    assert(n >= 1 && n + kEdgesAtOnce <= buffer.size());
     std::fill_n(buffer.begin() + static_cast<std::ptrdiff_t>(n), kEdgesAtOnce, buffer[n - 1]);
   }
 
-  [[nodiscard]] LatticeEdge edge(std::size_t e) const { return {{i[e], j[e], k[e]}, axis[e]}; }
+  [[nodiscard]] LatticeEdge edge(std::size_t e) const {
+    return {{i[e], j[e], k[e]}, Axis(static_cast<std::size_t>(axis[e]))};
+  }
 };
 
 /// Appends vertices to a chunk, in the order of their edges.
@@ -147,11 +152,12 @@ class VertexWriter {
 
  private:
   void append(const CutEdge& cut) {
+    assert(batch_.n < batch_.room());
     const std::size_t at = batch_.n++;
     batch_.i[at] = cut.edge.lower[0];
     batch_.j[at] = cut.edge.lower[1];
     batch_.k[at] = cut.edge.lower[2];
-    batch_.axis[at] = cut.edge.axis;
+    batch_.axis[at] = static_cast<std::int32_t>(cut.edge.axis);
     batch_.a[at] = cut.a;
     batch_.b[at] = cut.b;
     for (std::size_t a = 0; wants_gradients() && a < 3; ++a) {

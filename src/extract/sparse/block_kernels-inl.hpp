@@ -223,11 +223,11 @@ struct PlaceTable {
     for (std::size_t c = 0; c < 256; ++c) {
       const CaseRow& row = kCases[c];
       for (std::size_t n = 0; n < 15; ++n) {
-        const EdgeEnds ends = edge_ends(edge_at(row, n, flip));
-        const auto corner = static_cast<std::size_t>(ends.corner);
-        rows[c][n] = static_cast<std::uint16_t>(
-            static_cast<std::size_t>(ends.axis) * IdTable::kAxis + (corner & 1U) +
-            (corner >> 1 & 1U) * IdTable::kRow + (corner >> 2) * IdTable::kPlane);
+        const CellEdge edge = edge_at(row, n, flip);
+        const std::size_t corner = edge.lower();
+        rows[c][n] = static_cast<std::uint16_t>(edge.axis() * IdTable::kAxis + (corner & 1U) +
+                                                (corner >> 1 & 1U) * IdTable::kRow +
+                                                (corner >> 2) * IdTable::kPlane);
       }
       rows[c][15] = static_cast<std::uint16_t>(3 * row.n_triangles);
     }

@@ -57,6 +57,7 @@ class BlockSampler {
 
   /// The values of the block itself, or of the next along an axis: `source` = 1 + axis.
   [[nodiscard]] const std::byte* source(std::size_t source) const {
+    assert(source < 4);
     static constexpr std::size_t kPlace[4] = {kMiddle, kMiddle + 1, kMiddle + 3, kMiddle + 9};
     return values(kPlace[source]);
   }

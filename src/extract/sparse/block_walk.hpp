@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <span>
 
@@ -23,6 +24,7 @@ class BlockWalk {
 
   /// Moves to block n, never back. Cost: the way up in each row, or a search the first time.
   void move_to(std::size_t n) {
+    assert(n < blocks_.size());
     const Index3 at = blocks_[n].at;
     for (std::size_t row = 0; row < kRows; ++row) {
       Index3 block{at[0], at[1] + static_cast<std::int32_t>(row % kWidth),
@@ -41,6 +43,7 @@ class BlockWalk {
 
   /// The place of a block, or kNoBlock.
   [[nodiscard]] std::size_t at(std::size_t x, std::size_t y, std::size_t z) const {
+    assert(x < kWidth && y < kWidth && z < kWidth);
     return found_[(z * kWidth + y) * kWidth + x];
   }
 

@@ -40,7 +40,10 @@ class LeafQueue {
     }
   }
   /// The values of the first, good until the next push; null for none.
-  const std::byte* pop() { return values_[popped_++ % kAhead]; }
+  const std::byte* pop() {
+    assert(popped_ < pushed_);
+    return values_[popped_++ % kAhead];
+  }
 
  private:
   const LeafReader& reader_;

@@ -84,6 +84,7 @@ void SparseExtractor::emit_triangles(const Walk& walk, std::uint64_t base, const
     }
     enter_ids(d, there.edges, static_cast<std::uint32_t>(first), ids_);
   }
+  assert(n_edges_ == own.edges.n_vertices);
   const std::size_t before = chunk.indices.size();
   chunk.indices.resize(before + kBlockIndices + kBlockSlack);
   const std::size_t written =
@@ -135,7 +136,7 @@ void SparseExtractor::write_vertices(const Index3& block, bool at_border, Sample
   const Index3 o = origin_of(block);
   const auto edge_of = [&](std::uint16_t edge) {
     const EdgePlace& p = kEdgePlaces[edge];
-    return LatticeEdge{{o[0] + p.i, o[1] + p.j, o[2] + p.k}, p.axis};
+    return LatticeEdge{{o[0] + p.i, o[1] + p.j, o[2] + p.k}, Axis(p.axis)};
   };
   if (at_border) {
     for (std::size_t e = 0; e < n_edges_; ++e) writer.write(edge_of(edges_[e]));

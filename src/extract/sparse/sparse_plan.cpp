@@ -86,6 +86,7 @@ std::uint64_t SparsePlan::bytes() const {
 }
 
 std::uint64_t SparsePlan::first_vertex(std::size_t n) const {
+  assert(n <= blocks_.size());
   std::uint64_t id = first_[n / kStride];
   for (std::size_t b = n / kStride * kStride; b < n; ++b) id += blocks_[b].n_vertices;
   return id;

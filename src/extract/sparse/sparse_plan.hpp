@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -32,6 +33,7 @@ class BitPool {
   [[nodiscard]] std::vector<Mask512>& group(std::size_t n) { return groups_[n]; }
   [[nodiscard]] std::size_t n_groups() const { return groups_.size(); }
   [[nodiscard]] const Mask512& operator[](std::uint32_t place) const {
+    assert(place / kGroup < groups_.size() && place % kGroup < groups_[place / kGroup].size());
     return groups_[place / kGroup][place % kGroup];
   }
   [[nodiscard]] static std::uint32_t place(std::size_t group, std::size_t n) {
@@ -81,6 +83,7 @@ class SparsePlan {
   template <std::size_t kWidth>
   [[nodiscard]] BlockBits bits_around(const BlockWalk<kWidth>& walk, std::size_t x, std::size_t y,
                                       std::size_t z) const {
+    assert(walk.at(x, y, z) < blocks_.size());
     const SurfaceBlock& block = blocks_[walk.at(x, y, z)];
     BlockBits out;
     for (std::size_t n = 0; n < 8; ++n) {

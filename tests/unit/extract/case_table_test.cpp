@@ -15,18 +15,17 @@ namespace {
 using Edge = std::array<int, 4>;
 using Side = std::pair<Edge, Edge>;
 
-Edge edge_in(std::array<int, 3> cell, int edge) {
-  const EdgeEnds e = edge_ends(edge);
-  return {cell[0] + (e.corner & 1), cell[1] + (e.corner >> 1 & 1), cell[2] + (e.corner >> 2),
-          e.axis};
+Edge edge_in(std::array<int, 3> cell, CellEdge edge) {
+  const Index3 lower = edge.lower().of(cell);
+  return {lower[0], lower[1], lower[2], static_cast<int>(edge.axis())};
 }
 
 void add_sides(std::map<Side, int>& sides, std::array<int, 3> cell, unsigned cell_case) {
   const CaseRow& row = kCases[cell_case];
   for (std::size_t t = 0; t < row.n_triangles; ++t) {
     for (std::size_t n = 0; n < 3; ++n) {
-      const int a = row.edges[3 * t + n];
-      const int b = row.edges[3 * t + (n + 1) % 3];
+      const CellEdge a = row.edges[3 * t + n];
+      const CellEdge b = row.edges[3 * t + (n + 1) % 3];
       ++sides[{edge_in(cell, a), edge_in(cell, b)}];
     }
   }
@@ -55,11 +54,23 @@ void expect_sides_paired(const std::map<Side, int>& sides, std::array<int, 3> ex
   }
 }
 
+TEST(CaseTable, EdgesAreNumberedByAxisThenByLowerCorner) {
+  std::vector<std::array<std::size_t, 3>> edges;
+  for (std::size_t e = 0; e < kEdges; ++e) {
+    const CellEdge edge(e);
+    edges.push_back({edge.axis(), edge.lower(), edge.upper()});
+  }
+  const std::vector<std::array<std::size_t, 3>> expected{
+      {0, 0, 1}, {0, 2, 3}, {0, 4, 5}, {0, 6, 7}, {1, 0, 2}, {1, 1, 3},
+      {1, 4, 6}, {1, 5, 7}, {2, 0, 4}, {2, 1, 5}, {2, 2, 6}, {2, 3, 7}};
+  EXPECT_EQ(edges, expected);
+}
+
 TEST(CaseTable, OneCornerGivesOneTriangleThatLooksAway) {
   ASSERT_EQ(kCases[1].n_triangles, 1);
-  EXPECT_EQ(kCases[1].edges[0], 0);
-  EXPECT_EQ(kCases[1].edges[1], 4);
-  EXPECT_EQ(kCases[1].edges[2], 8);
+  EXPECT_EQ(kCases[1].edges[0], 0U);
+  EXPECT_EQ(kCases[1].edges[1], 4U);
+  EXPECT_EQ(kCases[1].edges[2], 8U);
 }
 
 TEST(CaseTable, All256CasesUseEveryInnerSideOnceEachWay) {
@@ -72,12 +83,11 @@ TEST(CaseTable, All256CasesUseEveryInnerSideOnceEachWay) {
 
 TEST(CaseTable, EveryCrossedEdgeIsUsedAndNoOther) {
   for (unsigned c = 0; c < 256; ++c) {
-    std::set<int> used;
+    std::set<std::size_t> used;
     for (std::size_t n = 0; n < 3U * kCases[c].n_triangles; ++n) used.insert(kCases[c].edges[n]);
-    for (int e = 0; e < kEdges; ++e) {
-      const EdgeEnds ends = edge_ends(e);
-      const bool crossed =
-          ((c >> ends.corner) & 1U) != ((c >> (ends.corner | 1 << ends.axis)) & 1U);
+    for (std::size_t e = 0; e < kEdges; ++e) {
+      const CellEdge edge(e);
+      const bool crossed = ((c >> edge.lower()) & 1U) != ((c >> edge.upper()) & 1U);
       EXPECT_EQ(used.contains(e), crossed) << c << " " << e;
     }
   }
