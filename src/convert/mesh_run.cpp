@@ -154,13 +154,9 @@ RunOptions MeshRun::run_options(double iso) const {
   options.extract.precision = needs_.precision;
   const Affine& to_world = report_.frame->to_world;
   if (needs_.relative_origin) options.extract.origin = double_origin(box(), to_world);
-  options.object.iso = iso;
   options.object.name = surface_.isos.size() == 1 && !volume().name.empty()
                             ? volume().name
                             : fmt::format("iso {}", value_text(iso, volume().type));
-  options.object.has_normals = options.extract.normals != Normals::none;
-  options.object.precision = needs_.precision;
-  options.object.origin = options.extract.origin;
   options.materials = materials();
   options.memory_bytes = options_.memory_bytes;
   options.count_first = counting_of(reader());
