@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+#include "boxes/boxes.hpp"
+#include "dots/dots.hpp"
+#include "mc/convert.hpp"
+#include "mc/method.hpp"
+#include "off/off.hpp"
+
+// A source, a sink and a method that the library does not know take part in convert().
+int main() {
+  std::ofstream("two.txt") << "dots 5 5 5\n1 1 1 1\n3 3 3 1\n";
+  mc::ConvertOptions options;
+  const std::array<const mc::SourceFormat*, 1> sources{&kDotsFormat};
+  const std::array<const mc::SinkFormat*, 1> sinks{&kOffFormat};
+  options.source.further_formats = sources;
+  options.sink.further_formats = sinks;
+  options.sink.force = true;
+  for (const mc::Method* method : {&mc::cubes_method(), &kBoxesMethod}) {
+    options.extract.method = method;
+    const mc::ConvertReport report = mc::convert("two.txt", "two.off", options);
+    std::ifstream file("two.off");
+    std::string magic;
+    std::size_t n_vertices = 0, n_triangles = 0;
+    file >> magic >> n_vertices >> n_triangles;
+    std::cout << report.volume->format << " to " << report.format << " by " << method->name << ", "
+              << report.surface->isos[0].reason << ": " << magic << ' ' << n_vertices
+              << " vertices, " << n_triangles << " triangles\n";
+  }
+  std::remove("two.txt");
+  std::remove("two.off");
+}
