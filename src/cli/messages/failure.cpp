@@ -9,24 +9,11 @@
 #include <system_error>
 
 #include "cli/messages/remedy.hpp"
-#include "mc/host.hpp"
+#include "convert/watching_inputs.hpp"
 
 namespace mc::cli {
 
 namespace {
-
-/// Whatever went wrong: where an input changed meanwhile, that is what is to be told.
-void run_on_inputs(const std::function<void()>& work) {
-  const InputWatch inputs;
-  try {
-    work();
-  } catch (const Cancelled&) {
-    throw;
-  } catch (...) {
-    inputs.refuse_changed();
-    throw;
-  }
-}
 
 Failure out_of_memory() {
   return {static_cast<int>(ErrorKind::limit),
@@ -49,7 +36,7 @@ std::vector<std::string> lines_of(const Error& e) {
 
 std::optional<Failure> attempt(const std::function<void()>& work) {
   try {
-    run_on_inputs(work);
+    conversion::watching_inputs(work);
     return std::nullopt;
   } catch (const Error& e) {
     return Failure{static_cast<int>(e.kind()), lines_of(e)};
