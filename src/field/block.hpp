@@ -92,7 +92,8 @@ inline void set(Mask512& mask, BitIndex at) { mask[at.word] |= std::uint64_t{1} 
 
 /// Index of sample (x, y, z) of a block, each from 0 to 7, among the values of a leaf.
 [[nodiscard]] constexpr std::size_t leaf_index(std::int32_t x, std::int32_t y, std::int32_t z) {
-  return static_cast<std::size_t>(x * 64 + y * 8 + z);
+  const std::int32_t n = x * 64 + y * 8 + z;
+  return static_cast<std::size_t>(n);
 }
 
 }  // namespace mc::field

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "extract/cubes/case_table.hpp"
 
+#include <cassert>
+
 // Builds the case table from the face rule, and has the compiler prove its laws.
 
 namespace mc::extraction {
@@ -66,7 +68,10 @@ struct EdgeRun {
 
   constexpr void add(CellEdge edge) { edges[size++] = edge; }
   /// The nth edge round the loop.
-  [[nodiscard]] constexpr CellEdge at(std::size_t n) const { return edges[n % size]; }
+  [[nodiscard]] constexpr CellEdge at(std::size_t n) const {
+    assert(size != 0);
+    return edges[n % size];
+  }
 };
 using Loop = EdgeRun<kEdges>;
 
