@@ -138,9 +138,10 @@ void MeshRun::choose_surface() {
   report_.surface = surface_;
   if (iso_needs_data(choice.isos, volume()) && !options_.dry_run) probe_output();
   spool_if_read_again();
-  surface_.isos =
-      choose_isos(choice.isos, volume(), source_->place,
-                  [&](std::span<const double> percentiles) { return measure(percentiles); });
+  surface_.isos = choose_isos(
+      choice.isos, volume(), source_->place,
+      [&](std::span<const double> percentiles) { return measure(percentiles); },
+      options_.source.further_formats);
   note_isos(surface_, volume().type, progress_);
 }
 

@@ -113,7 +113,8 @@ void ScriptRun::choose_surface() {
   const SurfaceChoice& choice = options_.base.surface;
   surface_.inside = choose_inside(choice, volume);
   surface_.border = choose_border(choice, volume);
-  surface_.isos = choose_isos(choice.isos, volume, source_->place, measure);
+  surface_.isos = choose_isos(choice.isos, volume, source_->place, measure,
+                              options_.base.source.further_formats);
   note_isos(surface_, volume.type, progress_);
   report_.iso = surface_.isos.front().value;
   report_.inside = surface_.inside;

@@ -24,9 +24,9 @@ double as_compared(double value, SampleType type) {
 }
 
 /// A volume that says itself where its surface is.
-std::optional<Iso> own_iso(const Volume& volume) {
+std::optional<Iso> own_iso(const Volume& volume, SourceFormats further) {
   if (volume.iso) {
-    const SourceFormat* format = find_source_format(volume.format);
+    const SourceFormat* format = find_source_format(volume.format, further);
     return Iso{as_compared(*volume.iso, volume.type),
                std::string(format != nullptr ? format->own_iso : SourceFormat{}.own_iso)};
   }
@@ -46,8 +46,8 @@ std::optional<Iso> own_iso(const Volume& volume) {
   return std::nullopt;
 }
 
-Iso default_iso(const Volume& volume, const FieldStatistics* statistics) {
-  if (const auto own = own_iso(volume)) return *own;
+Iso default_iso(const Volume& volume, const FieldStatistics* statistics, SourceFormats further) {
+  if (const auto own = own_iso(volume, further)) return *own;
   const double otsu =
       statistics != nullptr ? statistics->otsu : std::numeric_limits<double>::quiet_NaN();
   return {as_compared(otsu, volume.type), "otsu"};
@@ -56,13 +56,14 @@ Iso default_iso(const Volume& volume, const FieldStatistics* statistics) {
 }  // namespace
 
 bool iso_needs_data(std::span<const IsoChoice> asked, const Volume& volume) {
-  if (asked.empty()) return !own_iso(volume);
+  if (asked.empty()) return !own_iso(volume, {});
   return std::any_of(asked.begin(), asked.end(),
                      [](const IsoChoice& iso) { return iso.kind != IsoChoice::Kind::number; });
 }
 
 std::vector<Iso> choose_isos(std::span<const IsoChoice> asked, const Volume& volume,
-                             std::string_view place, const Measure& measure) {
+                             std::string_view place, const Measure& measure,
+                             SourceFormats further) {
   FieldStatistics statistics;
   if (iso_needs_data(asked, volume)) {
     std::vector<double> percentiles;
@@ -76,7 +77,7 @@ std::vector<Iso> choose_isos(std::span<const IsoChoice> asked, const Volume& vol
                               statistics.n_samples));
     }
   }
-  if (asked.empty()) return {default_iso(volume, &statistics)};
+  if (asked.empty()) return {default_iso(volume, &statistics, further)};
   std::vector<Iso> isos;
   std::size_t next_percentile = 0;
   for (const IsoChoice& iso : asked) {
@@ -118,7 +119,7 @@ Border choose_border(const SurfaceChoice& choice, const Volume& volume) {
 namespace mc {
 
 Surface default_surface(const Volume& volume, const FieldStatistics* statistics) {
-  return {{conversion::default_iso(volume, statistics)},
+  return {{conversion::default_iso(volume, statistics, {})},
           conversion::choose_inside({}, volume),
           conversion::choose_border({}, volume)};
 }
