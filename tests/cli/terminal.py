@@ -32,7 +32,7 @@ def feed(pipe, planes):
     pipe.close()
 
 
-def run(*options, columns=80, **environment):
+def run(*options, columns=80, output="m.ply", **environment):
     """What a run writes to its terminal, as [(seconds, text)]."""
     ours, theirs = pty.openpty()
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
@@ -40,8 +40,8 @@ def run(*options, columns=80, **environment):
     env.update({"TERM": "xterm", **environment})
     with tempfile.TemporaryDirectory() as folder:
         words = [MC, "extract", "-", "--dims", f"{SIDE},{SIDE},{PLANES}", "--type", "u8", "--iso", "20.5",
-                 "--threads", "1", "-o", str(pathlib.Path(folder, "m.ply")), *options]
-        done = subprocess.Popen(words, stdin=subprocess.PIPE, stderr=theirs, env=env)
+                 "--threads", "1", "-o", output if output == "-" else str(pathlib.Path(folder, output)), *options]
+        done = subprocess.Popen(words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=theirs, env=env)
         os.close(theirs)
         feeder = threading.Thread(target=feed, args=(done.stdin, PLANES))
         feeder.start()
@@ -100,6 +100,7 @@ class Terminal(unittest.TestCase):
         last = re.split("\r\n|\n", text_of(run("--progress", "never")).rstrip())[-1]
         self.assertRegex(last, r"^mc: .*m\.ply: \d+ vertices, \d+ triangles, [\d.]+ [KM]iB, \d+\.\d\d s$")
         self.assertNotIn("vertices", text_of(run("-q")))
+        self.assertNotIn("vertices", text_of(run("--to", "ply", output="-")))
 
     def test_it_fits_the_terminal(self):
         for bar in re.split("\r", text_of(run("-q", "--progress", "always", columns=40))):

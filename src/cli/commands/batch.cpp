@@ -168,8 +168,9 @@ class Batch {
     if (!invocation_.console.shows_summary() || plan_.convert.dry_run || stopped()) return;
     if (plan_.batch) {
       invocation_.console.note(summary_.text(plan_.out_dir));
-    } else if (status_ == 0) {
-      invocation_.console.note(summary_.text(output_names({&plan_.jobs.front().output, 1})));
+    } else if (const std::string& output = plan_.jobs.front().output;
+               status_ == 0 && output != "-") {
+      invocation_.console.note(summary_.text(output));
     }
   }
 

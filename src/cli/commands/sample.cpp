@@ -49,9 +49,9 @@ int run_sample(Invocation& invocation, std::vector<std::string> words) {
   } else {
     write_one_slice(plan, invocation);
   }
-  if (invocation.console.shows_summary()) {
+  if (plan.job.output != "-" && invocation.console.shows_summary()) {
     summary.add_file(plan.job.output);
-    invocation.console.note(summary.text(output_names({&plan.job.output, 1})));
+    invocation.console.note(summary.text(plan.job.output));
   }
   return 0;
 }

@@ -68,14 +68,18 @@ class EditTalk final : public ScriptObserver {
   }
   /// The word at the end of a success.
   void summarise() {
-    if (!invocation_.console.shows_summary() || plan_.options.base.dry_run) return;
+    if (!invocation_.console.shows_summary() || plan_.options.base.dry_run ||
+        plan_.sends_chunks()) {
+      return;
+    }
     std::vector<std::string> paths;
     for (const ScriptOutput& output : plan_.options.outputs) {
+      if (output.path == "-") return;
       paths.push_back(output.path);
       summary_.add_file(output.path);
     }
-    invocation_.console.note(
-        summary_.text(paths.empty() ? plan_.inputs.front() : output_names(paths)));
+    if (paths.empty()) paths.push_back(plan_.inputs.front());
+    invocation_.console.note(summary_.text(fmt::format("{}", fmt::join(paths, ", "))));
   }
   /// The last line.
   void close(EditRunReport report) {

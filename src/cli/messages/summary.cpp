@@ -10,7 +10,7 @@ namespace mc::cli {
 
 void Summary::add_file(const std::string& path) {
   struct stat status {};
-  if (path == "-" || ::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return;
   n_bytes_ += static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -42,12 +42,6 @@ std::string Summary::text(const std::string& files) const {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - began_;
   parts.push_back(fmt::format("{:.2f} s", seconds.count()));
   return fmt::format("{}: {}", files, fmt::join(parts, ", "));
-}
-
-std::string output_names(std::span<const std::string> paths) {
-  std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(path == "-" ? "<stdout>" : path);
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 }  // namespace mc::cli

@@ -10,7 +10,7 @@
 #include "cli/messages/console.hpp"
 #include "mc/convert.hpp"
 
-// The one line that a command that succeeded says on a terminal.
+// The one line that a command that succeeded says on a terminal, unless it wrote into a pipe.
 
 namespace mc::cli {
 
@@ -18,7 +18,7 @@ class Summary {
  public:
   Summary() : began_(std::chrono::steady_clock::now()) {}
 
-  /// A file that was written, or "-".
+  /// A file that was written.
   void add_file(const std::string& path);
   void add_mesh(std::span<const MeshTotals> totals);
   void add_samples(const IndexBox& box);
@@ -35,8 +35,5 @@ class Summary {
   bool has_mesh_ = false;
   std::string samples_;
 };
-
-/// How a summary names outputs: "<stdout>" for "-".
-std::string output_names(std::span<const std::string> paths);
 
 }  // namespace mc::cli
