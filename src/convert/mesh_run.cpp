@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "convert/mesh_formats.hpp"
 #include "convert/notes.hpp"
 #include "convert/output_frame.hpp"
 #include "convert/output_probe.hpp"
@@ -26,6 +27,12 @@ std::uint64_t sample_bytes(const VolumeReader& reader) {
   std::uint64_t n = each;
   for (int a = 0; a < 3; ++a) n *= static_cast<std::uint64_t>(volume.lattice.box.extent(a));
   return n;
+}
+
+/// Whether positions far from the origin lose nothing that matters.
+bool keeps_far_positions(const SinkFormat& format) {
+  const MeshNeeds needs = format.needs({}, true);
+  return needs.precision == Precision::f64 || needs.relative_origin;
 }
 
 /// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
@@ -87,8 +94,9 @@ const MaterialReader* MeshRun::materials() const {
 void MeshRun::place_mesh() {
   check_region(reader(), options_.extract.region);
   if (materials_of(reader()) != nullptr && !format_.holds_materials) {
-    progress_.note(fmt::format(
-        "{} holds no materials, so they are left out; write ply, glb or gltf", report_.format));
+    progress_.note(
+        fmt::format("{} holds no materials, so they are left out; write {}", report_.format,
+                    mesh_formats([](const SinkFormat& f) { return f.holds_materials; })));
   }
   report_.frame = output_frame(volume(), options_.frame, format_);
   const Affine& to_world = report_.frame->to_world;
@@ -103,8 +111,8 @@ void MeshRun::place_mesh() {
   } else {
     progress_.warn(fmt::format(
         "{}: float coordinates move vertices by up to {:.3g}, more than 1/8192 of a cell; "
-        "ply or glb keep them in place",
-        report_.format, loss.largest_move));
+        "{} keep them in place",
+        report_.format, loss.largest_move, mesh_formats(keeps_far_positions)));
   }
 }
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "convert/mesh_formats.hpp"
+
 // Frames are signed permutations of axes, units a scale; both are exact but for the scale itself.
 
 namespace mc::conversion {
@@ -52,7 +54,8 @@ void turn_y_up(OutputFrame& at, const FrameChoice& choice) {
   if (at.source_units == Units::unknown && medical) at.source_units = Units::mm;
   if (choice.units == Units::mm && at.source_units == Units::m) {
     throw Error(ErrorKind::usage, "--units", "glTF is in metres, and so is the source",
-                "choose ply, obj or stl for millimetres");
+                fmt::format("choose {} for millimetres",
+                            mesh_formats([](const SinkFormat& f) { return !f.y_up_metres; })));
   }
   if (at.source_frame == Frame::lps) at.to_world = kLpsToYUp.after(at.to_world);
   if (at.source_frame == Frame::ras) at.to_world = kRasToYUp.after(at.to_world);
@@ -66,6 +69,10 @@ void keep_source_axes(OutputFrame& at, const FrameChoice& choice) {
   if (at.frame != at.source_frame) at.to_world = kTurnAboutSuperior.after(at.to_world);
   at.units = choice.units.value_or(at.source_units);
   at.to_world = converted(at.to_world, at.source_units, at.units);
+}
+
+bool holds_doubles(const SinkFormat& format) {
+  return format.needs({}, true).precision == Precision::f64;
 }
 
 }  // namespace
@@ -107,13 +114,15 @@ void check_told_apart(const std::string& place, const IndexBox& box, const Affin
     for (std::size_t a = 0; a < 3; ++a) stored.m[4 * a + 3] -= origin[a];
   }
   if (!rounding_loss(box, stored, needs.precision).collapses) return;
-  throw Error(asked ? ErrorKind::usage : ErrorKind::limit, place,
-              fmt::format("{} coordinates cannot tell the vertices of this volume apart: its cells "
-                          "are {:.3g} wide, its corner lies at {:.3g}",
-                          needs.precision == Precision::f32 ? "float" : "double",
-                          to_world.spacing(0), to_world.m[3]),
-              needs.precision == Precision::f32 ? "use ply or obj, or change --spacing and --origin"
-                                                : "change --spacing and --origin");
+  throw Error(
+      asked ? ErrorKind::usage : ErrorKind::limit, place,
+      fmt::format("{} coordinates cannot tell the vertices of this volume apart: its cells "
+                  "are {:.3g} wide, its corner lies at {:.3g}",
+                  needs.precision == Precision::f32 ? "float" : "double", to_world.spacing(0),
+                  to_world.m[3]),
+      needs.precision == Precision::f32
+          ? fmt::format("use {}, or change --spacing and --origin", mesh_formats(holds_doubles))
+          : std::string("change --spacing and --origin"));
 }
 
 }  // namespace mc::conversion
