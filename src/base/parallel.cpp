@@ -12,6 +12,10 @@
 #include <exception>
 #include <thread>
 #else
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
@@ -200,6 +204,22 @@ ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_)
 
 void alone(const std::function<void()>& work) { tbb::task_arena(1).execute(work); }
 
+namespace {
+
+/// Runs `work`, which starts threads. oneTBB throws a plain runtime_error where the system has no
+/// memory for one; it leaves as std::jthread's would.
+template <class Work>
+void starting_threads(Work&& work) {
+  try {
+    work();
+  } catch (const std::runtime_error& error) {
+    if (!std::string_view(error.what()).starts_with("pthread_create")) throw;
+    throw std::system_error(std::make_error_code(std::errc::resource_unavailable_try_again));
+  }
+}
+
+}  // namespace
+
 void for_ranges(std::size_t n, std::size_t grain,
                 const std::function<void(std::size_t, std::size_t)>& body) {
   if (n == 0) return;
@@ -207,8 +227,10 @@ void for_ranges(std::size_t n, std::size_t grain,
     body(0, n);
     return;
   }
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
-                    [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+  starting_threads([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
+                      [&](const tbb::blocked_range<std::size_t>& r) { body(r.begin(), r.end()); });
+  });
 }
 
 namespace {
@@ -236,7 +258,7 @@ void on_many_threads(std::size_t n_items, std::size_t n_slots, std::span<const S
   }
   const auto end = tbb::make_filter<std::size_t, void>(
       tbb::filter_mode::parallel, [&](std::size_t slot) { slots.give_back(slot); });
-  tbb::parallel_pipeline(n_slots, chain & end);
+  starting_threads([&] { tbb::parallel_pipeline(n_slots, chain & end); });
 }
 
 }  // namespace

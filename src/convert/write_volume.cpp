@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <memory>
+#include <type_traits>
+#include <vector>
 
+#include "base/parallel.hpp"
 #include "convert/planes_per_read.hpp"
 #include "convert/provenance.hpp"
 #include "mc/convert.hpp"
@@ -23,22 +27,30 @@ struct Target {
   const std::stop_token& stop;
 };
 
-/// All planes of a reader or stream, in order; the sink has begun.
+/// All planes, in order, while others are read; the sink has begun. The planes of a reader are read
+/// by all threads, those of a stream one after the other.
 template <class Planes>
 void write_planes(Planes& planes, std::uint64_t held_bytes, const Target& to) {
   const Volume& volume = planes.volume();
   const auto n_planes = static_cast<std::int32_t>(volume.lattice.box.extent(2));
-  const std::int32_t step =
+  const std::int32_t at_once =
       conversion::planes_per_read(volume, memory_beside(held_bytes, to.memory_bytes), to.output);
-  to.progress.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
-  Slab slab;
-  for (std::int32_t k = 0; k < n_planes; k += step) {
+  const std::size_t n_slots = std::min(base::pipeline_slots(), static_cast<std::size_t>(at_once));
+  const std::int32_t per_item = at_once / static_cast<std::int32_t>(n_slots);
+  std::vector<Slab> slabs(n_slots);
+  const auto read = [&](std::size_t item, std::size_t slot) {
     if (to.stop.stop_requested()) throw Cancelled();
-    const std::int32_t end = std::min(n_planes, k + step);
-    planes.read(k, end, slab);
-    to.sink.write(slab);
-    to.progress.advance(static_cast<std::uint64_t>(end - k));
-  }
+    const std::int32_t k = static_cast<std::int32_t>(item) * per_item;
+    planes.read(k, std::min(n_planes, k + per_item), slabs[slot]);
+  };
+  const auto write = [&](std::size_t /*item*/, std::size_t slot) {
+    to.sink.write(slabs[slot]);
+    to.progress.advance(slabs[slot].planes.size());
+  };
+  constexpr bool kReadsInOrder = std::is_same_v<Planes, PlaneStream>;
+  const std::array<base::Step, 2> steps{{{kReadsInOrder, read}, {true, write}}};
+  to.progress.begin("sample", static_cast<std::uint64_t>(n_planes), "planes");
+  base::pipeline(static_cast<std::size_t>((n_planes + per_item - 1) / per_item), n_slots, steps);
 }
 
 void write_all(const SlabReader& reader, const Target& to) {

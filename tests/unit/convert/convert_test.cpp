@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/parallel.hpp"
 #include "support/source_files.hpp"
 
 namespace mc {
@@ -79,6 +80,29 @@ TEST(Convert, AVolumeByTheOutputsFormat) {
   EXPECT_TRUE(report.totals.empty());
   const Source back = test::open({output});
   EXPECT_EQ(volume_of(back.reader).lattice.dims(), (Index3{3, 3, 3}));
+}
+
+TEST(Convert, VolumesAreTheSameForAnyThreadsAndMemory) {
+  const Folder folder;
+  const std::string input = folder.file(
+      "noise.json", R"({"format":"mc-volume","version":1,"convention":"density",)"
+                    R"("grid":{"cells":[40,30,60],"spacing":0.1},)"
+                    R"("field":{"type":"fbm","octaves":3,"source":{"type":"perlin"}}})");
+  const std::string output = folder.path("noise.nrrd");
+  ConvertOptions options;
+  options.sink.force = true;
+  std::string expected;
+  for (const int n_threads : {1, 2, 7}) {
+    const base::ThreadLimit limit(n_threads);
+    for (const std::uint64_t planes : {2, 5, 1000}) {
+      options.memory_bytes = planes * 41 * 31 * sizeof(float);
+      convert(input, output, options);
+      const std::string bytes = test::read_bytes(output);
+      if (expected.empty()) expected = bytes;
+      EXPECT_GT(bytes.size(), 41U * 31 * 61 * sizeof(float));
+      EXPECT_EQ(bytes == expected, true) << n_threads << " threads, " << planes << " planes";
+    }
+  }
 }
 
 TEST(Convert, ADryRunWritesNothing) {
