@@ -96,6 +96,17 @@ struct OutputFrame {
 /// The shortest text that reads back as this value of this type.
 [[nodiscard]] std::string value_text(double value, SampleType type);
 
+/// Which plane of samples becomes a picture, and which greys its values are.
+struct SliceChoice {
+  int axis = 2;        ///< 0, 1, 2
+  bool world = false;  ///< `at` is a world coordinate, else an index
+  double at = 0;
+  int bits = 16;                                 ///< PNG: 8 or 16
+  std::optional<std::array<double, 2>> range{};  ///< PNG: black and white; unset: finite range
+};
+
+/// What convert() does. Outputs that are volumes or pictures take source, sink, region, memory and
+/// slice only.
 struct ConvertOptions {
   SourceOptions source{};
   SinkOptions sink{};
@@ -109,6 +120,7 @@ struct ConvertOptions {
   bool allow_empty = false;                              ///< a mesh without triangles is a success
   bool skip = true;      ///< leave out samples far from the surface where the source can
   bool dry_run = false;  ///< decide everything, write nothing
+  std::optional<SliceChoice> slice{};  ///< a picture of this plane, to a format of pictures
   /// Called before the work with what it will take; or empty.
   std::function<void(const MemoryNeed&)> on_memory_need{};
 };
@@ -132,7 +144,7 @@ struct ConvertReport {
   std::vector<StageTime> stages;
 };
 
-/// Converts a volume to a mesh, or to a volume, by the output's format.
+/// Converts a volume to a mesh, a volume or, with options.slice, a picture, by the output's format.
 /// Inputs   as open_source() takes them. Output: a path, or "-" for stdout with options.sink.to.
 /// Report   filled in as far as the run comes, also when it throws.
 /// Errors   those of source and sink; empty: no surface; limit: memory, what the format can hold;
@@ -164,20 +176,16 @@ struct VolumeOptions {
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;
 };
 
+/// The options of a conversion that concern its volume.
+[[nodiscard]] VolumeOptions volume_options(const ConvertOptions& options);
+
 /// Writes the samples of a volume, or those of a region, as a volume file. A sparse volume stays
 /// sparse where the format can.
-/// Errors   usage: a region outside the volume; limit: two planes exceed the budget; output.
+/// Errors   usage: a region outside the volume, or of a stream; limit: two planes exceed the
+/// budget;
+///          output.
 void write_volume(const VolumeReader& from, const std::string& output, const VolumeOptions& options,
                   Progress& progress, const std::stop_token& stop);
-
-/// Which plane of samples becomes a picture, and which greys its values are.
-struct SliceChoice {
-  int axis = 2;        ///< 0, 1, 2
-  bool world = false;  ///< `at` is a world coordinate, else an index
-  double at = 0;
-  int bits = 16;                                 ///< PNG: 8 or 16
-  std::optional<std::array<double, 2>> range{};  ///< PNG: black and white; unset: finite range
-};
 
 /// Writes one plane of samples as a picture, seen with the first axis to the right and the second
 /// up: i, j for a plane of constant k; k, j for i; i to the right and k down for j (y is up, so

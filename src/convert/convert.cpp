@@ -17,15 +17,20 @@ void copy_volume(std::span<const std::string> inputs, const std::string& output,
                  const ConvertOptions& options, Progress& progress, const std::stop_token& stop,
                  ConvertReport& report) {
   SourceOptions from = options.source;
-  from.streams = !options.extract.region;  // all planes are written in order
+  // All planes are written in order; a slice or a region is not all of them.
+  from.streams = !options.extract.region && !options.slice;
   from.memory_bytes = options.memory_bytes;
   const Source source = open_source(inputs, from, progress);
   report.input = source.place;
   report.volume = volume_of(source.reader);
   conversion::note_chosen_grid(source, from, progress);
   if (options.dry_run) return check_region(source.reader, options.extract.region);
-  write_volume(source.reader, output, {options.sink, options.extract.region, options.memory_bytes},
-               progress, stop);
+  const VolumeOptions volume = volume_options(options);
+  if (options.slice) {
+    write_slice(source.reader, output, *options.slice, volume, progress, stop);
+  } else {
+    write_volume(source.reader, output, volume, progress, stop);
+  }
 }
 
 }  // namespace

@@ -221,10 +221,9 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
                           Remedy::close_border);
   }
   if (totals.n_materials_held != 0) {
-    progress_.warn(fmt::format(
-        "{}: {} of {} vertices have a material that is no number from 0 to 65535: the nearest is "
-        "taken, 0 for NaN",
-        source_->place, totals.n_materials_held, totals.n_vertices));
+    warn_of_clamped_materials(
+        source_->place,
+        fmt::format("{} of {} vertices", totals.n_materials_held, totals.n_vertices), progress_);
   }
   progress_.detail(
       fmt::format("{}: {} vertices, {} triangles", output_, totals.n_vertices, totals.n_triangles));

@@ -13,6 +13,12 @@ void note_chosen_grid(const Source& source, const SourceOptions& options, Progre
       Remedy::choose_grid);
 }
 
+void warn_of_clamped_materials(std::string_view place, std::string_view vertices,
+                               Progress& progress) {
+  progress.warn(fmt::format("{}: {} have a material index outside 0..65535: clamped, NaN to 0",
+                            place, vertices));
+}
+
 void note_isos(const Surface& surface, SampleType type, Progress& progress) {
   for (const Iso& iso : surface.isos) {
     const std::string value = value_text(iso.value, type);

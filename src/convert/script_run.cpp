@@ -20,10 +20,6 @@ namespace {
 /// Steps that a live script keeps, so that its memory does not grow without end.
 constexpr std::size_t kLiveUndo = 256;
 
-VolumeOptions volume_options(const ConvertOptions& options) {
-  return {options.sink, options.extract.region, options.memory_bytes};
-}
-
 bool is_mesh(const ScriptOutput& output) {
   return output_format(output.path, output.options.sink).open_mesh != nullptr;
 }
@@ -169,10 +165,8 @@ void ScriptRun::write_output(const ScriptOutput& output) {
 
 void ScriptRun::warn_of_materials() const {
   if (!chunks_ || chunks_->n_materials_held() == 0) return;
-  progress_.warn(fmt::format(
-      "{}: {} vertices of chunks have a material that is no number from 0 to 65535: the nearest is "
-      "taken, 0 for NaN",
-      source_->place, chunks_->n_materials_held()));
+  warn_of_clamped_materials(
+      source_->place, fmt::format("{} vertices of chunks", chunks_->n_materials_held()), progress_);
 }
 
 void ScriptRun::run() {

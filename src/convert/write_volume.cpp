@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <memory>
 #include <type_traits>
 #include <vector>
@@ -66,9 +65,10 @@ void write(const SlabReader& reader, const std::optional<IndexBox>& region, cons
   }
 }
 
-void write(PlaneStream& stream, [[maybe_unused]] const std::optional<IndexBox>& region,
-           const Target& to) {
-  assert(!region);
+void write(PlaneStream& stream, const std::optional<IndexBox>& region, const Target& to) {
+  if (region) {
+    throw Error(ErrorKind::usage, to.output, "a region of a stream: copy the stream to disk first");
+  }
   to.sink.begin(stream.volume());
   write_planes(stream, 0, to);
 }
@@ -82,6 +82,10 @@ void write(const LeafReader& reader, const std::optional<IndexBox>& region, cons
 }
 
 }  // namespace
+
+VolumeOptions volume_options(const ConvertOptions& options) {
+  return {options.sink, options.extract.region, options.memory_bytes};
+}
 
 void write_volume(const VolumeReader& from, const std::string& output, const VolumeOptions& options,
                   Progress& progress, const std::stop_token& stop) {

@@ -345,10 +345,10 @@ std::uint64_t resolve_memory(const std::optional<std::string>& text) {
   return text ? parse_size("--memory", *text) : base::default_budget_bytes();
 }
 
-ConvertOptions resolve_conversion(const SourceArgs& source, const SurfaceArgs& surface,
+ConvertOptions resolve_conversion(const SourceOptions& source, const SurfaceArgs& surface,
                                   const OutputArgs& out, const SinkFormat& format) {
   ConvertOptions options;
-  options.source = resolve_source(source);
+  options.source = source;
   options.surface = resolve_surface(surface, format);
   options.extract = resolve_extraction(surface);
   options.normals = resolve_normals(surface, format);
@@ -362,11 +362,11 @@ ConvertOptions resolve_conversion(const SourceArgs& source, const SurfaceArgs& s
   return options;
 }
 
-VolumeOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
-                             const SinkFormat& format) {
-  VolumeOptions options;
+ConvertOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
+                              const SinkFormat& format) {
+  ConvertOptions options;
   options.sink = {.to = std::string(format.name), .force = force, .sync = sync};
-  if (region) options.region = parse_region("--region", *region);
+  if (region) options.extract.region = parse_region("--region", *region);
   options.memory_bytes = resolve_memory(memory);
   return options;
 }
@@ -385,10 +385,9 @@ ExtractPlan resolve(const ExtractArgs& args) {
   check_inputs("extract", inputs);
   plan.skip_existing = args.skip_existing;
   plan.common = resolve_common(args.common);
-  resolve_source(args.source);  // its errors come before those of the output
+  const SourceOptions source = resolve_source(args.source);
   resolve_output(args, inputs, plan);
-  plan.convert =
-      resolve_conversion(args.source, args.surface, args.out, *find_sink_format(plan.format));
+  plan.convert = resolve_conversion(source, args.surface, args.out, *find_sink_format(plan.format));
   plan.report = args.out.report;
   return plan;
 }
@@ -397,7 +396,7 @@ SamplePlan resolve(const SampleArgs& args) {
   SamplePlan plan;
   check_inputs("sample", args.source.inputs);
   plan.common = resolve_common(args.common);
-  plan.source = resolve_source(args.source);
+  const SourceOptions source = resolve_source(args.source);
   check_output_name(args.output);
   if (!args.output) {
     refuse_missing_output("sample", args.common, args.source.inputs,
@@ -413,9 +412,10 @@ SamplePlan resolve(const SampleArgs& args) {
         "use mc extract to write meshes");
   }
   plan.job = {args.source.inputs, *args.output};
-  plan.slice = resolve_slice(args, format);
-  plan.volume = resolve_volume(args.region, args.memory, args.force, args.sync, format);
-  plan.source.memory_bytes = plan.volume.memory_bytes;
+  const std::optional<SliceChoice> slice = resolve_slice(args, format);
+  plan.convert = resolve_volume(args.region, args.memory, args.force, args.sync, format);
+  plan.convert.source = source;
+  plan.convert.slice = slice;
   return plan;
 }
 

@@ -43,9 +43,7 @@ struct ExtractPlan {
 
 struct SamplePlan {
   Job job;
-  SourceOptions source;
-  VolumeOptions volume;
-  std::optional<SliceChoice> slice;
+  ConvertOptions convert;
   CommonOptions common;
 };
 
@@ -58,11 +56,11 @@ std::uint64_t resolve_memory(const std::optional<std::string>& text);
 SampleType parse_type(const std::string& text);
 Normals parse_normals(const std::string& text);
 /// How a volume becomes a mesh of `format`.
-ConvertOptions resolve_conversion(const SourceArgs& source, const SurfaceArgs& surface,
+ConvertOptions resolve_conversion(const SourceOptions& source, const SurfaceArgs& surface,
                                   const OutputArgs& out, const SinkFormat& format);
 /// How samples are written as a volume of `format`.
-VolumeOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
-                             const SinkFormat& format);
+ConvertOptions resolve_volume(const Text& region, const Text& memory, bool force, bool sync,
+                              const SinkFormat& format);
 /// Refuses glTF to a stream.
 void check_streamable(const std::string& output, const SinkFormat& format);
 /// Reads the names of --files-from. Errors   input: what holds them cannot be read.

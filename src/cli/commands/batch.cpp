@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "cli/commands/batch.hpp"
-#include "base/machine_memory.hpp"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -11,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/machine_memory.hpp"
 #include "base/parallel.hpp"
 #include "cli/arguments/values.hpp"
 #include "cli/messages/peak_memory.hpp"

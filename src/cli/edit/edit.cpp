@@ -58,9 +58,7 @@ class EditTalk final : public ScriptObserver {
     line.peak_bytes = peak_->bytes();
     tell(to_json(line));
   }
-  void fault(const Error& error) override {
-    show(invocation_.console, {static_cast<int>(error.kind()), error.lines()});
-  }
+  void fault(const Error& error) override { show(invocation_.console, failure_of(error)); }
   void chunk(std::uint64_t record, const Index3& id, std::span<const std::byte> glb) override {
     print_out(fmt::format("{{\"record\":{},\"chunk\":[{},{},{}],\"bytes\":{}}}\n", record, id[0],
                           id[1], id[2], glb.size()));

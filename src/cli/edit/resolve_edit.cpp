@@ -35,7 +35,7 @@ ScriptOutput resolve_output(const EditArgs& args, const std::string& path,
                             const SinkFormat& format) {
   if (format.open_mesh != nullptr) {
     check_streamable(path, format);
-    return {path, resolve_conversion(args.source, args.surface, args.out, format)};
+    return {path, resolve_conversion(resolve_source(args.source), args.surface, args.out, format)};
   }
   if (format.open_volume == nullptr) {
     const Names whole = sink_names(
@@ -43,11 +43,8 @@ ScriptOutput resolve_output(const EditArgs& args, const std::string& path,
     refuse(path, fmt::format("{} holds one slice of a volume", format.name),
            fmt::format("write {}, then use mc sample", sink::dotted(whole)));
   }
-  const VolumeOptions volume =
-      resolve_volume(args.surface.region, args.out.memory, args.out.force, false, format);
-  ConvertOptions options{.sink = volume.sink, .memory_bytes = volume.memory_bytes};
-  options.extract.region = volume.region;
-  return {path, options};
+  return {path, resolve_volume(args.surface.region, args.out.memory, args.out.force, args.out.sync,
+                               format)};
 }
 
 /// How chunks are meshed and the input is opened.
@@ -55,7 +52,8 @@ ConvertOptions resolve_chunks(const EditArgs& args) {
   OutputArgs out = args.out;
   out.ascii = false;
   out.precision.reset();
-  return resolve_conversion(args.source, args.surface, out, conversion::chunk_format());
+  return resolve_conversion(resolve_source(args.source), args.surface, out,
+                            conversion::chunk_format());
 }
 
 void check_input(const EditArgs& args) {

@@ -26,20 +26,19 @@ Failure internal_fault(std::string_view what) {
           {fmt::format("internal fault: {}; please report it", what)}};
 }
 
-/// An error's lines, with the option that remedies it.
-std::vector<std::string> lines_of(const Error& e) {
-  if (e.remedy() == Remedy::none) return e.lines();
-  return {with_remedy(e.what(), e.remedy())};
-}
-
 }  // namespace
+
+Failure failure_of(const Error& error) {
+  if (error.remedy() == Remedy::none) return {static_cast<int>(error.kind()), error.lines()};
+  return {static_cast<int>(error.kind()), {with_remedy(error.what(), error.remedy())}};
+}
 
 std::optional<Failure> attempt(const std::function<void()>& work) {
   try {
     conversion::watching_inputs(work);
     return std::nullopt;
   } catch (const Error& e) {
-    return Failure{static_cast<int>(e.kind()), lines_of(e)};
+    return failure_of(e);
   } catch (const Cancelled&) {
     // Only a signal asks for it, and the signal ends the process a moment later.
     return Failure{128 + SIGINT, {}};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/messages/report.hpp"
-#include "base/machine_memory.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/machine_memory.hpp"
 #include "cli/arguments/values.hpp"
 
 // All JSON that leaves the program. Keys keep their order; numbers that are not finite are null;
