@@ -61,6 +61,15 @@ def main():
             check_order(faults, folder, kind, done.calls)
             n_syncs = sum(c.name == "fsync" for c in done.calls)
             check_failures(mc, faults, folder, kind, words, n_syncs)
+        script = folder.out.parent / "none.jsonl"
+        script.write_text('{"format":"mc-edits","version":1}\n')
+        folder.clear()
+        for name in ("m.ply", "m.nrrd"):  # of an edit, both kinds of outputs
+            words = ["edit", folder.raw, *folder.raw_options(iso=True), "--script", script]
+            done = mc.run(folder, [*words, "-o", name, "-q", "--sync"], CALLS=CALLS)
+            faults.expect(done.status == 0, "edit", name, done.stderr)
+            check_order(faults, folder, f"edit {name}", done.calls)
+            folder.clear()
         to_pipe = [*program.output_words(folder, "ply"), "--to", "ply", "--sync"]
         done = mc.run(folder, to_pipe)
         faults.expect(done.status == 0 and done.stdout, "a pipe cannot be synced", done.stderr)

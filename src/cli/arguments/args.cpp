@@ -138,6 +138,23 @@ std::vector<Option> frame_options(OutputArgs& a) {
   };
 }
 
+/// What `extract` and `edit` have in common, in the order of their help.
+template <class Args>
+void append_surface_options(std::vector<Option>& all, Args& a) {
+  append(all, surface_options(a.surface));
+  append(all, source_options(a.source));
+  append(all, frame_options(a.out));
+}
+template <class Args>
+void append_last_options(std::vector<Option>& all, Args& a) {
+  append(all, {{"--allow-empty", "", "a mesh without triangles is a success", false,
+                &a.surface.allow_empty},
+               {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
+                &a.surface.no_skip}});
+  append(all, run_options(a.common, a.out.memory));
+  append(all, talk_options(a.common));
+}
+
 }  // namespace
 
 std::vector<Option> options_of(ExtractArgs& a) {
@@ -152,9 +169,7 @@ std::vector<Option> options_of(ExtractArgs& a) {
       {"--skip-existing", "", "batch: leave out inputs whose mesh is there", false,
        &a.skip_existing},
   };
-  append(all, surface_options(a.surface));
-  append(all, source_options(a.source));
-  append(all, frame_options(a.out));
+  append_surface_options(all, a);
   append(all,
          {{"--ascii", "", format_help().ascii, false, &a.out.ascii},
           {"--precision", "HOW", format_help().precision, false, &a.out.precision, "float double"},
@@ -163,13 +178,8 @@ std::vector<Option> options_of(ExtractArgs& a) {
            &a.out.dry_run},
           {"--force", "", "replace an existing output; write binary to a terminal", true,
            &a.out.force},
-          {"--sync", "", "be done only when the output is on the disk", false, &a.out.sync},
-          {"--allow-empty", "", "a mesh without triangles is a success", false,
-           &a.surface.allow_empty},
-          {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
-           &a.surface.no_skip}});
-  append(all, run_options(a.common, a.out.memory));
-  append(all, talk_options(a.common));
+          {"--sync", "", "be done only when the output is on the disk", false, &a.out.sync}});
+  append_last_options(all, a);
   return all;
 }
 
@@ -196,22 +206,15 @@ std::vector<Option> options_of(EditArgs& a) {
       {"--keep-going", "", "pass over bad records; the status is 2 all the same", false,
        &a.keep_going},
   };
-  append(all, surface_options(a.surface));
-  append(all, source_options(a.source));
-  append(all, frame_options(a.out));
-  append(
-      all,
-      {{"--ascii", "", format_help().ascii, false, &a.out.ascii},
-       {"--precision", "HOW", format_help().precision, false, &a.out.precision},
-       {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &a.out.report},
-       {"--dry-run", "", "say what each edit would touch, and stop", true, &a.out.dry_run},
-       {"--force", "", "replace existing outputs; write binary to a terminal", true, &a.out.force},
-       {"--allow-empty", "", "a mesh without triangles is a success", false,
-        &a.surface.allow_empty},
-       {"--no-skip", "", "specs: compute every sample, also far from the surface", false,
-        &a.surface.no_skip}});
-  append(all, run_options(a.common, a.out.memory));
-  append(all, talk_options(a.common));
+  append_surface_options(all, a);
+  append(all,
+         {{"--ascii", "", format_help().ascii, false, &a.out.ascii},
+          {"--precision", "HOW", format_help().precision, false, &a.out.precision},
+          {"--report", "FILE", "a line of JSON for each record; - is stdout", true, &a.out.report},
+          {"--dry-run", "", "say what each edit would touch, and stop", true, &a.out.dry_run},
+          {"--force", "", "replace existing outputs; write binary to a terminal", true,
+           &a.out.force}});
+  append_last_options(all, a);
   return all;
 }
 

@@ -59,7 +59,7 @@ void run_reported(const ExtractPlan& plan, const Job& job, Invocation& invocatio
     report.done.input = job.inputs.front();
     report.skipped = true;
     invocation.console.detail(
-        fmt::format("{}: left out, {} is there", job.inputs.front(), job.output));
+        fmt::format("{}: skipped, {} already exists", job.inputs.front(), job.output));
     return;
   }
   const auto failure = attempt([&] { run_job(plan, job, invocation, report); });

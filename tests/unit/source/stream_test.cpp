@@ -7,11 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <set>
 #include <span>
 #include <thread>
 
+#include "mc/convert.hpp"
 #include "source/stream/sample_range.hpp"
 #include "source/stream/unpack.hpp"
 #include "support/packed_bytes.hpp"
@@ -175,6 +177,18 @@ TEST(Streams, KeptPlanesAreAnOrdinaryReader) {
   EXPECT_FALSE(spool_stream(source.reader, silent_progress()));
   EXPECT_EQ(test::all_bytes(test::slabs(source)), bytes);
   EXPECT_EQ(test::all_bytes(test::slabs(source)), bytes);
+}
+
+TEST(Streams, HaveNoRegions) {
+  const Folder folder;
+  const Fifo fifo(folder, counting_bytes(2 * 3 * 9));
+  const Source source = test::open({fifo.path()}, raw({2, 3, 9}, SampleType::u8));
+  const std::string output = folder.path("part.nrrd");
+  VolumeOptions options;
+  options.region = IndexBox{{0, 0, 0}, {1, 1, 1}};
+  EXPECT_EQ(error_of([&] { write_volume(source.reader, output, options, silent_progress(), {}); }),
+            "2 " + output + ": a region of a stream: copy the stream to disk first");
+  EXPECT_FALSE(std::filesystem::exists(output));
 }
 
 TEST(Streams, OnlyWhoAsksMeetsThem) {
