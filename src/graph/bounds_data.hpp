@@ -3,7 +3,7 @@
 
 #include "graph/bounds.hpp"
 
-// Bounds of what reads samples, for bounds_of: over known coordinates.
+// Bounds of what reads samples, for ops.def: over known coordinates.
 
 namespace mc::graph {
 

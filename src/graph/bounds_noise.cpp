@@ -16,53 +16,6 @@ namespace mc::graph {
 
 namespace {
 
-/// Of a noise at frequency 1. `slope` bounds its steepness: the largest sum over the corners of a
-/// cell of what each gives with its worst gradient, in the worst direction, found on a grid of
-/// 1/200 (three dimensions: 1/40) cell and rounded up by two hundredths. Value noises: the root of
-/// the axes' number times the steepest blend along one; the sums of opensimplex2 were taken of
-/// lengths, whatever the direction. Distances to points: as steep as the metric, their difference
-/// twice. `bend` bounds the second derivative along each axis, found the same way, simplex noises
-/// at 400,000 places and rounded up by a twentieth; 0 where there is none everywhere.
-struct Shape {
-  float slope;
-  float bend;
-};
-
-Shape cellular_shape(const Instruction& instruction) {
-  const bool manhattan = static_cast<CellMetric>(instruction.p[3]) == CellMetric::manhattan;
-  const bool twice = static_cast<CellReturn>(instruction.p[2]) == CellReturn::f2_f1;
-  return {(manhattan ? 1.75F : 1.01F) * (twice ? 2.0F : 1.0F), 0};
-}
-
-Shape shape_of(const Instruction& instruction) {
-  switch (instruction.op) {
-    case Op::perlin2:
-      return {3.2F, 12};
-    case Op::perlin3:
-      return {3.7F, 12};
-    case Op::simplex2:
-      return {7.5F, 55};
-    case Op::simplex3:
-      return {7.1F, 42};
-    case Op::open_simplex2:
-      return {9.6F, 57};
-    case Op::open_simplex3:
-      return {7.2F, 51};
-    case Op::value2:
-      return {5.32F, 11.6F};
-    case Op::value3:
-      return {6.52F, 11.6F};
-    case Op::value_cubic2:
-      return {3.42F, 9.7F};
-    case Op::value_cubic3:
-      return {4.18F, 9.7F};
-    case Op::unity2:
-      return {1.9F, 0};
-    default:
-      return cellular_shape(instruction);
-  }
-}
-
 /// A grid over a box, its corners included.
 class Grid {
  public:
@@ -132,26 +85,34 @@ Interval Grid::sampled(const Instruction& instruction) const {
 
 }  // namespace
 
-Interval noise_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+Interval whole_range(const Instruction& instruction) {
   const NoiseRange range = noise_range(instruction);
-  const bool jumps = instruction.op == Op::white2 || instruction.op == Op::white3 ||
-                     ((instruction.op == Op::cellular2 || instruction.op == Op::cellular3) &&
-                      static_cast<CellReturn>(instruction.p[2]) == CellReturn::value);
-  if (jumps) return between(range.lo, range.hi);
-  const Shape shape = shape_of(instruction);
+  return between(range.lo, range.hi);
+}
+
+Interval noise_bounds(const Instruction& instruction, const Interval (&at)[3], Shape shape) {
   const float frequency = std::abs(instruction.p[0]);
   float farthest = 0;
   for (std::size_t a = 0; a < instruction.n_in; ++a) {
     farthest = std::max(farthest, size_of(at[a]) * frequency);
   }
-  if (!(farthest <= 0x1p20F)) return between(range.lo, range.hi);
+  const Interval range = whole_range(instruction);
+  if (!(farthest <= 0x1p20F)) return range;
   const Grid grid(at, instruction.n_in, frequency);
   // Coordinates are rounded before and after they are scaled.
   const float reach = grid.reach(shape) + shape.slope * farthest * 0x1p-20F + 1e-4F;
-  if (!(reach < 0.9F)) return between(range.lo, range.hi);
+  if (!(reach < 0.9F)) return range;
   const Interval samples = grid.sampled(instruction);
   if (!samples.known()) return kUnknown;
   return between(std::max(range.lo, samples.lo - reach), std::min(range.hi, samples.hi + reach));
+}
+
+Interval cellular_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto what = static_cast<CellReturn>(instruction.p[2]);
+  if (what == CellReturn::value) return whole_range(instruction);
+  const bool manhattan = static_cast<CellMetric>(instruction.p[3]) == CellMetric::manhattan;
+  const float steepness = manhattan ? 1.75F : 1.01F;
+  return noise_bounds(instruction, at, {steepness * (what == CellReturn::f2_f1 ? 2.0F : 1.0F), 0});
 }
 
 }  // namespace mc::graph

@@ -48,6 +48,46 @@ Interval hypotenuse(Interval a, Interval b) { return root(sum(square(a), square(
 
 }  // namespace
 
+Interval sphere_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto& p = instruction.p;
+  Interval squares = square(difference(at[0], {p[0], p[0]}));
+  squares = sum(squares, square(difference(at[1], {p[1], p[1]})));
+  squares = sum(squares, square(difference(at[2], {p[2], p[2]})));
+  return difference({p[3], p[3]}, root(squares));
+}
+
+/// The distance never falls when one from a pair of sides rises.
+Interval box_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto& p = instruction.p;
+  Interval q[3];
+  for (std::size_t n = 0; n < 3; ++n) {
+    const Interval from = magnitude(difference(at[n], {p[n], p[n]}));
+    q[n] = difference(from, {p[n + 3] * 0.5F, p[n + 3] * 0.5F});
+  }
+  const auto inside = [](float x, float y, float z) {
+    const float ox = greatest(x, 0.0F);
+    const float oy = greatest(y, 0.0F);
+    const float oz = greatest(z, 0.0F);
+    const float outside = __builtin_sqrtf((ox * ox + oy * oy) + oz * oz);
+    return -(outside + least(greatest(x, greatest(y, z)), 0.0F));
+  };
+  if (!q[0].known() || !q[1].known() || !q[2].known()) return kUnknown;
+  return between(inside(q[0].hi, q[1].hi, q[2].hi), inside(q[0].lo, q[1].lo, q[2].lo));
+}
+
+Interval plane_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto& p = instruction.p;
+  const auto along = [&](std::size_t n) { return product(at[n], {p[n], p[n]}); };
+  return difference({p[3], p[3]}, sum(sum(along(0), along(1)), along(2)));
+}
+
+Interval torus_bounds(const Instruction& instruction, const Interval (&at)[3]) {
+  const auto& p = instruction.p;
+  const auto from = [&](std::size_t n) { return square(difference(at[n], {p[n], p[n]})); };
+  const Interval from_ring = difference(root(sum(from(0), from(2))), {p[3], p[3]});
+  return difference({p[4], p[4]}, root(sum(square(from_ring), from(1))));
+}
+
 Interval cylinder_bounds(const Instruction& instruction, const Interval (&at)[3]) {
   const auto& p = instruction.p;
   const Interval out = from(hypotenuse(from(at[0], p[0]), from(at[2], p[2])), p[3]);

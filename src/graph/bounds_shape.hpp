@@ -3,10 +3,14 @@
 
 #include "graph/bounds.hpp"
 
-// Bounds of the solids that are no sums of squares, for bounds_of: over known coordinates.
+// Bounds of solids, for ops.def: over known coordinates.
 
 namespace mc::graph {
 
+[[nodiscard]] Interval sphere_bounds(const Instruction& instruction, const Interval (&at)[3]);
+[[nodiscard]] Interval box_bounds(const Instruction& instruction, const Interval (&at)[3]);
+[[nodiscard]] Interval plane_bounds(const Instruction& instruction, const Interval (&at)[3]);
+[[nodiscard]] Interval torus_bounds(const Instruction& instruction, const Interval (&at)[3]);
 [[nodiscard]] Interval cylinder_bounds(const Instruction& instruction, const Interval (&at)[3]);
 
 /// Of an exact distance, which falls and rises by no more than the way: about its value in the

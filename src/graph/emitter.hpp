@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "graph/data_uses.hpp"
+#include "graph/ops.hpp"
 #include "graph/program.hpp"
 #include "graph/reduce.hpp"
 #include "mc/graph.hpp"
@@ -53,6 +55,7 @@ class Emitter {
   /// The value of an instruction: a new one, or that of an equal instruction before it.
   Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
              std::uint32_t seed = 0, const DataUse* data = nullptr) {
+    assert(inputs.size() == row_of(op).n_inputs);
     Instruction instruction{.op = op,
                             .out = static_cast<Value>(code_.size()),
                             .n_in = static_cast<std::uint8_t>(inputs.size()),

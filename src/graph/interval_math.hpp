@@ -7,7 +7,7 @@
 
 #include "graph/bounds.hpp"
 
-// Arithmetic of intervals, for bounds.cpp and its neighbours. Ends are computed by the float
+// Arithmetic of intervals, for ops.def and what it calls. Ends are computed by the float
 // operations of the rows; what is not finite becomes unknown.
 
 namespace mc::graph {
@@ -54,6 +54,8 @@ inline Interval quotient(Interval a, Interval b) {
   return over_corners(a, b, [](float u, float v) { return u / v; });
 }
 
+inline Interval negative(Interval a) { return {-a.hi, -a.lo}; }
+
 inline Interval magnitude(Interval a) {
   if (holds_zero(a)) return between(0, size_of(a));
   return hull(std::abs(a.lo), std::abs(a.hi));
@@ -72,6 +74,12 @@ inline Interval root(Interval a) {
 template <class F>
 Interval rising(Interval a, F f) {
   return between(f(a.lo), f(a.hi));
+}
+
+/// Of a function that never rises.
+template <class F>
+Interval falling(Interval a, F f) {
+  return between(f(a.hi), f(a.lo));
 }
 
 /// Of a function that rises or falls throughout.

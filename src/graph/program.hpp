@@ -17,72 +17,10 @@
 
 namespace mc::graph {
 
+/// The operations, each with its row in ops.def.
 enum class Op : std::uint8_t {
-  fill,  // p0
-  x,     // world coordinates of the row
-  y,
-  z,
-  add,  // a + b
-  sub,
-  mul,
-  div,
-  min,  // b < a ? b : a
-  max,  // b > a ? b : a
-  pow,
-  mod,
-  abs,
-  neg,
-  sqrt,
-  floor,
-  fract,
-  sin,
-  clamp,         // to [p0, p1]
-  remap,         // (a - p0) * p1 + p2
-  smoothstep,    // t = clamp((a - p0) / p1)
-  mix,           // a + (b - a) * c
-  select,        // c < p0 ? a : b
-  blend,         // a + (b - a) * smoothstep of c over [p0, p0 + p1]
-  curve,         // b where a < p0, else p1 + p2 t + p3 t^2 + p4 t^3 with t = a - p0, at most p5
-  terrace,       // steps of p0 from p3, flat up to p1 of a step, then rising by p2 a step
-  repeat,        // a - p0 * n, n the nearest whole number of periods within [p1, p2]
-  scale,         // a * p0
-  accumulate,    // a + b * p0
-  multiply_add,  // a + b * c, rounded twice
-  weigh,         // a fractal's next amplitude from amplitude a, octave b; p0 gain, p1 weighted
-  ridge,         // 1 - 2 |a|
-  billow,        // 2 |a| - 1
-  pingpong,      // (a + 1) * p0, folded to and fro in [-1, 1]
-  offset,        // p0 + a
-  mirror,        // p0 - a
-  smooth_min,    // of a, b; radius p0
-  smooth_max,
-  perlin2,  // coordinates a, b (, c); p0 frequency; seed
-  perlin3,
-  simplex2,
-  simplex3,
-  open_simplex2,
-  open_simplex3,
-  unity2,
-  white2,
-  white3,
-  value2,
-  value3,
-  value_cubic2,
-  value_cubic3,
-  cellular2,  // also p1 jitter, p2 CellReturn, p3 CellMetric
-  cellular3,
-  sphere,  // signed distances, positive inside; coordinates a, b, c; p as Node::numbers
-  box,
-  plane,
-  torus,      // from here: coordinates permuted so that b runs along the axis
-  cylinder,   // p3 radius, p4 half the height
-  cone,       // p3, p4 radii, p5 half the height
-  capsule,    // from the origin along b; p0 length, p1, p2 radii, p3, p4 slope: sine and cosine
-  ellipsoid,  // p as Node::numbers
-  gyroid,     // p0..p2 centre, p3 radians a unit
-  heightmap,  // coordinates a, b; p as Node::numbers, but pixels a unit for sizes; data
-  volume,     // coordinates a, b, c; data
-  copy,       // a; of pruned programs only
+#define MC_OP(name, ...) name,
+#include "graph/ops.def"
 };
 
 /// A value is named by its place in Program::code.

@@ -44,7 +44,7 @@ void gradient_row(const Instruction& instruction, Row a, Row b, Row c, std::size
                   OutRow out) noexcept;
 
 /// A picture laid over the coordinates; its pixels' centres are half a pixel from its edges.
-void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
+void heightmap_row(const Instruction& instruction, Row u, Row v, Row unused, std::size_t n,
                    OutRow out) noexcept;
 
 /// A volume at places of the world; an integer index is a sample's own place.

@@ -95,7 +95,7 @@ void picture_row(const Instruction& instruction, Row u, Row v, std::size_t n, Ou
 
 }  // namespace
 
-void heightmap_row(const Instruction& instruction, Row u, Row v, std::size_t n,
+void heightmap_row(const Instruction& instruction, Row u, Row v, Row /*unused*/, std::size_t n,
                    OutRow out) noexcept {
   switch (instruction.data->filter) {
     case Filter::nearest:

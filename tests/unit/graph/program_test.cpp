@@ -9,6 +9,7 @@
 #include "graph/bounds.hpp"
 #include "graph/compile.hpp"
 #include "graph/machine.hpp"
+#include "graph/ops.hpp"
 #include "graph/prune.hpp"
 #include "graph/reduce.hpp"
 #include "graph/rows.hpp"
@@ -109,9 +110,7 @@ TEST(Pruning, LeavesEveryBit) {
   std::size_t n_simpler = 0;
   for (int n = 0; n < 20000; ++n) {
     Instruction whole{.op = kOps[random() % kOps.size()], .out = 3, .in = {0, 1, 2}};
-    whole.n_in = whole.op == Op::mix                                 ? 3
-                 : whole.op <= Op::max || whole.op >= Op::smooth_min ? 2
-                                                                     : 1;
+    whole.n_in = graph::row_of(whole.op).n_inputs;
     whole.p = {std::abs(coarse(random)) + 0.25F, 0};
     whole.p[1] = whole.p[0] + 1;
     std::array<Interval, 3> bounds;
