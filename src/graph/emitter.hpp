@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "graph/data_uses.hpp"
+#include "graph/node_types.hpp"
 #include "graph/ops.hpp"
 #include "graph/program.hpp"
 #include "graph/reduce.hpp"
@@ -36,11 +37,7 @@ struct Domain {
   }
 };
 
-/// The two axes of flat dims; those of xyz are all three.
-inline constexpr std::array<std::array<std::uint8_t, 2>, 4> kDimsAxes{
-    {{0, 1}, {0, 1}, {0, 2}, {1, 2}}};
-
-/// Emits one graph. Its families of nodes are in emit_noise.cpp and emit_shape.cpp.
+/// Emits one graph. How each type of node does it is in nodes/.
 class Emitter {
  public:
   explicit Emitter(const Graph& graph) : graph_(graph) {
@@ -51,9 +48,8 @@ class Emitter {
   std::vector<Instruction> take() { return std::move(code_); }
   std::vector<std::shared_ptr<const DataUse>> take_data() { return data_.take(); }
 
- private:
   /// The value of an instruction: a new one, or that of an equal instruction before it.
-  Value push(Op op, std::initializer_list<Value> inputs, const std::array<float, 6>& p = {},
+  Value push(Op op, std::initializer_list<Value> inputs, const Numbers& p = {},
              std::uint32_t seed = 0, const DataUse* data = nullptr) {
     assert(inputs.size() == row_of(op).n_inputs);
     Instruction instruction{.op = op,
@@ -74,13 +70,7 @@ class Emitter {
     return known->second;
   }
 
-  [[noreturn]] static void refuse() {
-    throw Error(ErrorKind::usage, "",
-                "fractals and warps expand to more than " +
-                    std::to_string(Graph::kMaxInstructions) + " operations a sample",
-                "nest fewer of them, or lower the octaves");
-  }
-
+  /// The value of a node in a domain.
   Value emit(NodeId id, const Domain& domain) {
     if (done_.size() > 4 * Graph::kMaxInstructions) {
       refuse();  // nodes that pass their input on cost no instruction, but memory here
@@ -89,51 +79,33 @@ class Emitter {
     if (const auto known = done_.find(key); known != done_.end()) {
       return known->second;
     }
-    const Value value = emit_new(graph_.node(id), domain);
+    const Node& node = graph_.node(id);
+    const Value value = row_of(node.type).emit(*this, node, domain);
     done_.emplace(key, value);
     return value;
   }
 
-  Value emit_new(const Node& node, const Domain& domain);
-  Value emit_arithmetic(const Node& node, const Domain& domain);
-  Value emit_generator(const Node& node, const Domain& domain);
-  Value emit_unity(const Node& node, const Domain& domain);
-  Value emit_octave(const Node& node, const Domain& domain);
-  Value emit_fractal(const Node& node, const Domain& domain);
-  Value emit_weighted_fractal(const Node& node, const Domain& domain);
-  std::array<Value, 3> emit_shifts(const Node& node, const Domain& domain, std::uint32_t octave,
-                                   const Domain& at);
-  Domain emit_warped(const Node& node, const Domain& domain);
-  Value emit_warp(const Node& node, const Domain& domain);
-  Value emit_select(const Node& node, const Domain& domain);
-  Value emit_curve(const Node& node, const Domain& domain);
-  Value emit_transform(const Node& node, const Domain& domain);
-  Value emit_solid(const Node& node, const Domain& domain);
-  Value emit_shell(const Node& node, const Domain& domain);
-  Value emit_combination(const Node& node, const Domain& domain);
-  Value emit_heightmap(const Node& node, const Domain& domain);
-  Value emit_volume(const Node& node, const Domain& domain);
-
-  Value unary(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
-    return push(op, {emit(node.inputs[0], domain)}, p);
-  }
-  Value binary(Op op, const Node& node, const Domain& domain) {
-    const Value a = emit(node.inputs[0], domain);
-    return push(op, {a, emit(node.inputs[1], domain)});
-  }
-  /// Left to right.
-  Value fold(Op op, const Node& node, const Domain& domain, const std::array<float, 6>& p = {}) {
+  /// An operation over all inputs of a node, from left to right.
+  Value fold(Op op, const Node& node, const Domain& domain, const Numbers& p = {}) {
     Value sum = emit(node.inputs[0], domain);
     for (std::size_t n = 1; n < node.inputs.size(); ++n) {
       sum = push(op, {sum, emit(node.inputs[n], domain)}, p);
     }
     return sum;
   }
-  [[nodiscard]] bool density() const { return graph_.settings().convention == Convention::density; }
-  Value linear(const Domain& domain, const float* row);
-  std::array<Value, 3> moved(const Domain& domain, const std::vector<float>& matrix);
-  Domain octave_of(const Node& node, const Domain& domain, std::uint32_t octave,
-                   const Domain& previous);
+
+  /// How the node reads its samples.
+  const DataUse* use_of(const Node& node) { return data_.of(node); }
+  [[nodiscard]] const GraphSettings& settings() const { return graph_.settings(); }
+  [[nodiscard]] bool density() const { return settings().convention == Convention::density; }
+
+ private:
+  [[noreturn]] static void refuse() {
+    throw Error(ErrorKind::usage, "",
+                "fractals and warps expand to more than " +
+                    std::to_string(Graph::kMaxInstructions) + " operations a sample",
+                "nest fewer of them, or lower the octaves");
+  }
 
   const Graph& graph_;
   std::vector<Instruction> code_;

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
-#include "base/checked.hpp"
 #include "graph/compile.hpp"
+#include "graph/node_types.hpp"
 #include "graph/program.hpp"
 
 // The graph under construction: what may be added, and how deep it is.
@@ -18,136 +17,24 @@ namespace mc {
 
 namespace {
 
-struct Arity {
-  std::size_t least;
-  std::size_t most;
-};
-
-Arity arity_of(NodeType type) {
-  constexpr std::size_t kMany = Graph::kMaxNodes;
-  switch (type) {
-    case NodeType::constant:
-    case NodeType::x:
-    case NodeType::y:
-    case NodeType::z:
-    case NodeType::white:
-    case NodeType::value:
-    case NodeType::value_cubic:
-    case NodeType::perlin:
-    case NodeType::simplex:
-    case NodeType::opensimplex2:
-    case NodeType::cellular:
-    case NodeType::sphere:
-    case NodeType::box:
-    case NodeType::plane:
-    case NodeType::torus:
-    case NodeType::roundbox:
-    case NodeType::capsule:
-    case NodeType::cylinder:
-    case NodeType::cone:
-    case NodeType::ellipsoid:
-    case NodeType::gyroid:
-    case NodeType::heightmap:
-    case NodeType::volume:
-      return {0, 0};
-    case NodeType::unity_perlin2d:
-      return {0, 2};
-    case NodeType::add:
-    case NodeType::mul:
-    case NodeType::min:
-    case NodeType::max:
-    case NodeType::unite:
-    case NodeType::intersect:
-      return {1, kMany};
-    case NodeType::sub:
-    case NodeType::div:
-    case NodeType::pow:
-    case NodeType::mod:
-    case NodeType::warp:
-    case NodeType::difference:
-      return {2, 2};
-    case NodeType::mix:
-    case NodeType::select:
-      return {3, 3};
-    default:
-      return {1, 1};
+/// How many inputs a node may have, by its type's keys.
+bool takes_inputs(const graph::NodeRow& row, std::size_t n) {
+  std::size_t n_nodes = 0;
+  std::size_t n_paired = 0;
+  for (const graph::NodeKey& key : row.keys) {
+    if (key.kind == graph::KeyKind::inputs) return n >= 1 && n <= Graph::kMaxNodes;
+    n_nodes += key.kind == graph::KeyKind::node ? 1 : 0;
+    n_paired += key.kind == graph::KeyKind::paired ? 1 : 0;
   }
-}
-
-/// Whether the list has the size and order that the type wants.
-bool is_good_list(const Node& node) {
-  const std::vector<float>& list = node.list;
-  const std::size_t n = list.size();
-  switch (node.type) {
-    case NodeType::affine:
-      return n == 12;
-    case NodeType::roundbox:
-      return n == 1;
-    case NodeType::capsule:
-      return n == 8;
-    case NodeType::terrace:
-      return n == 0 || (n >= 2 && std::adjacent_find(list.begin(), list.end(),
-                                                     std::greater_equal<>()) == list.end());
-    case NodeType::curve:
-      for (std::size_t at = 2; at < n; at += 2) {
-        if (!(list[at - 2] < list[at])) {
-          return false;
-        }
-      }
-      return n >= 4 && n % 2 == 0;
-    default:
-      return n == 0;
-  }
+  return n == n_nodes || n == n_nodes + n_paired;
 }
 
 [[noreturn]] void refuse(const std::string& fault) { throw Error(ErrorKind::usage, "", fault); }
 
-/// Counts are small enough for float32 to hold every pixel's place.
-void check_raster(const Node& node) {
-  constexpr std::int32_t kMostPixels = 1 << 22;
-  if (node.raster == nullptr) {
-    refuse("a node has no samples to read");
-  }
-  const Raster& raster = *node.raster;
-  const auto counted = [](std::int32_t n) { return n >= 1 && n <= kMostPixels; };
-  if (!counted(raster.width) || !counted(raster.height) ||
-      raster.samples.size() !=
-          static_cast<std::size_t>(raster.width) * static_cast<std::size_t>(raster.height)) {
-    refuse("a picture of " + std::to_string(raster.width) + "x" + std::to_string(raster.height) +
-           " pixels: expected 1 to " + std::to_string(kMostPixels) + " along each axis");
-  }
-  if (!(node.numbers[2] > 0) || !(node.numbers[3] > 0)) {
-    refuse("a picture's size is not above 0");
-  }
-}
-
-void check_volume(const Node& node) {
-  constexpr double kMostFactor = 1e100;  // times float32 and added up, still a double
-  if (node.volume == nullptr) {
-    refuse("a node has no samples to read");
-  }
-  const SampledVolume& volume = *node.volume;
-  const auto n = [&](std::size_t axis) { return static_cast<std::uint64_t>(volume.dims[axis]); };
-  const bool counted =
-      std::all_of(volume.dims.begin(), volume.dims.end(), [](auto d) { return d >= 1; });
-  if (!counted || base::checked_mul(n(0), n(1), n(2)) != volume.samples.size()) {
-    refuse("a volume's dims are not those of its " + std::to_string(volume.samples.size()) +
-           " samples");
-  }
-  const auto& m = volume.to_index.m;
-  if (!std::all_of(m.begin(), m.end(), [](double v) { return std::abs(v) <= kMostFactor; })) {
-    refuse("a volume's map has numbers past +-1e100");
-  }
-  if (node.filter == Filter::cubic || !std::isfinite(node.outside.value_or(0))) {
-    refuse("a volume has the filters nearest and linear, and finite numbers outside");
-  }
-}
-
 void check_node(const Node& node) {
-  const Arity arity = arity_of(node.type);
+  const graph::NodeRow& row = graph::row_of(node.type);
   const std::size_t n = node.inputs.size();
-  const bool odd_pair = node.type == NodeType::unity_perlin2d && n == 1;
-  if (n < arity.least || n > arity.most || odd_pair) {
+  if (!takes_inputs(row, n)) {
     refuse("a node has " + std::to_string(n) + " inputs: expected another number of them");
   }
   if (node.octaves < 1 || node.octaves > 32) {
@@ -161,15 +48,11 @@ void check_node(const Node& node) {
       !std::all_of(node.list.begin(), node.list.end(), finite)) {
     refuse("a node's number is not finite");
   }
-  if (!is_good_list(node)) {
+  if (row.takes_list == nullptr ? !node.list.empty() : !row.takes_list(node.list)) {
     refuse("a node's list of " + std::to_string(node.list.size()) +
            " numbers is not what its type needs");
   }
-  if (node.type == NodeType::heightmap) {
-    check_raster(node);
-  } else if (node.type == NodeType::volume) {
-    check_volume(node);
-  }
+  if (row.check_samples != nullptr) row.check_samples(node);
 }
 
 }  // namespace

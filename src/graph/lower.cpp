@@ -133,42 +133,9 @@ CurvePieces terrace_pieces(std::span<const float> levels, float ramp) {
   return curve;
 }
 
-SolidCode solid_code(const Node& solid) {
-  constexpr float kTurn = 6.28318531F;
-  Numbers p = solid.numbers;
-  switch (solid.type) {
-    case NodeType::box:
-      return {Op::box, p};
-    case NodeType::plane:
-      return {Op::plane, p};
-    case NodeType::torus:
-      return {Op::torus, p, true};
-    case NodeType::roundbox:
-      for (std::size_t axis = 3; axis < 6; ++axis) {
-        p[axis] = p[axis] - 2.0F * solid.list[0];
-      }
-      return {Op::box, p};
-    case NodeType::cylinder:
-      p[4] = 0.5F * p[4];
-      return {Op::cylinder, p, true};
-    case NodeType::cone:
-      p[5] = 0.5F * p[5];
-      return {Op::cone, p, true};
-    case NodeType::ellipsoid:
-      return {Op::ellipsoid, p};
-    case NodeType::gyroid:
-      p[3] = kTurn / p[3];
-      return {Op::gyroid, p};
-    case NodeType::capsule:
-      return {Op::capsule, capsule_numbers(ends_of(solid.list))};
-    default:
-      return {Op::sphere, p};
-  }
-}
-
-std::vector<float> capsule_frame(std::span<const float> list) {
+Capsule capsule_of(std::span<const float> list) {
   const Ends ends = ends_of(list);
-  return frame_along(ends.first, ends.way);
+  return {frame_along(ends.first, ends.way), capsule_numbers(ends)};
 }
 
 }  // namespace mc::graph

@@ -13,9 +13,6 @@
 
 namespace mc::graph {
 
-/// The numbers of an instruction.
-using Numbers = std::array<float, 6>;
-
 /// Pieces for Op::curve, from left to right; the value left of the first is `first`, from `end_x`
 /// on it is `last`.
 struct CurvePieces {
@@ -33,18 +30,16 @@ struct CurvePieces {
 /// Steps at rising levels: level up to 1 - ramp of the way to the next, then straight up to it.
 [[nodiscard]] CurvePieces terrace_pieces(std::span<const float> levels, float ramp);
 
-/// A solid's instruction. Where it turns about an axis, the coordinates and the centre are still to
-/// be permuted so that the second runs along it.
-struct SolidCode {
-  Op op = Op::sphere;
-  Numbers numbers{};
-  bool turns_about_axis = false;
+/// What Op::capsule takes.
+struct Capsule {
+  /// The 3 x 4 matrix, row by row, that takes world points into the capsule's frame: the first end
+  /// is the origin, the second axis points to the other one. A capsule along an axis of the world
+  /// gives a permutation.
+  std::vector<float> frame;
+  Numbers numbers;
 };
-[[nodiscard]] SolidCode solid_code(const Node& solid);
 
-/// The 3 x 4 matrix, row by row, that takes world points into the frame of a capsule, given by its
-/// ends and radii: the first end is the origin, the second axis points to the other one. A capsule
-/// along an axis of the world gives a permutation.
-[[nodiscard]] std::vector<float> capsule_frame(std::span<const float> list);
+/// From the ends and the radii there.
+[[nodiscard]] Capsule capsule_of(std::span<const float> list);
 
 }  // namespace mc::graph

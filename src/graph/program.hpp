@@ -23,6 +23,9 @@ enum class Op : std::uint8_t {
 #include "graph/ops.def"
 };
 
+/// The numbers of an instruction, p0 to p5.
+using Numbers = std::array<float, 6>;
+
 /// A value is named by its place in Program::code.
 using Value = std::uint32_t;
 
@@ -43,7 +46,7 @@ struct Instruction {
   std::array<Value, 3> in{};
   std::uint8_t n_in = 0;
   std::uint32_t seed = 0;
-  std::array<float, 6> p{};
+  Numbers p{};
   const DataUse* data = nullptr;  ///< one of Program::data
 };
 

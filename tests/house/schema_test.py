@@ -2,7 +2,7 @@
 """Holds data/mc-volume.schema.json against its meta-schema, the loader's node types and documents.
 
 Every shipped document and every example of mc-volume(5) is valid; every node type of the loader has
-its schema, its picture and its place in a good document of the corpus; and of the documents that the loader
+its schema, its picture and its place in a good document of the corpus or of the pictures; and of the documents that the loader
 refuses, in the corpus and in the unit test's list, the schema refuses all but those whose fault only
 a program can see.
 """
@@ -95,17 +95,22 @@ def main():
         if not BEYOND_A_SCHEMA.search(fault):
             expect(False, text, fault)
 
-    loader = (ROOT / "src/source/spec/nodes.cpp").read_text()
-    types = set(re.findall(r'\{"([a-z0-9-]+)", NodeType::', loader))
+    drawn = (ROOT / "data" / "nodes.md").read_text()
+    frame = {"format": "mc-volume", "version": 1, "grid": {"cells": [2, 2, 2]}}
+    for name, example in re.findall(r"\*\*(.*?)\*\* [^`]*`(.*)`", drawn):
+        field = parsed(example)
+        expect(True, json.dumps({**frame, "field": field}), f"the picture of {name}")
+        shown.update(types_in(field))
+    rows = "".join(path.read_text() for path in sorted((ROOT / "src/graph/nodes").glob("*.hpp")))
+    types = set(re.findall(r'\.name = "([a-z0-9-]+)"', rows))
     named = set(schema["$defs"]["object"]["properties"]["type"]["enum"])
     for name in sorted(types ^ named):
         faults.append(f"{name}: known to the loader or to the schema, not to both")
     for name in sorted(types - shown - NEEDS_A_FILE):
-        faults.append(f"{name}: in no good document of the corpus")
+        faults.append(f"{name}: in no good document of the corpus, nor in a picture's")
     for name in sorted(types):
         if not re.search(rf"^\*\*.*\b{name}\*\*|^\*\*{name}\*\*", page, re.MULTILINE):
             faults.append(f"{name}: has no entry in mc-volume(5)")
-    drawn = (ROOT / "data" / "nodes.md").read_text()
     for name in sorted(types):
         picture = ROOT / "data" / "pictures" / "nodes" / f"{name}.png"
         if f"pictures/nodes/{name}.png" not in drawn or not picture.is_file():

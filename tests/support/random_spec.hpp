@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,96 +12,72 @@
 #include <utility>
 #include <vector>
 
-// Valid mc-volume documents from bytes, by a grammar of all node types: whatever the bytes, the
-// loader must take the document, unless it expands past the limit of operations.
+#include "graph/node_types.hpp"
+
+// Valid mc-volume documents from bytes, by the table of node types: whatever the bytes, the loader
+// must take the document, unless it expands past the limit of operations.
 
 namespace mc::tests {
 
-/// A node type and its keys, `key=code`, with `?` after the code where the key may be left out.
-/// Codes: n node, N list of nodes, r number, p above 0, u 0 or more, f from 0 to 1, v three
-/// numbers, V three above 0, s seed, d dims, D dims but xyz, o octaves, l lacunarity, g gain, c
-/// copies, t three angles, E two rising numbers, R two unequal ones, L a rising list, P rising
-/// points, M a matrix with an inverse, C two radii, h a small one, w below 0, W 0 or more; or the
-/// choices themselves: a|b.
-struct NodeGrammar {
+/// A node type whose keys depend on each other, and keys that make it valid, `key=code`, with `?`
+/// after the code where the key may be left out. Codes: n node, r number, p above 0, f from 0 to
+/// 1, v three numbers, V three above 0, D dims but xyz, o octaves, l lacunarity, g gain, c
+/// copies, t three angles, E two rising numbers, R two unequal ones, L a rising list, M a matrix
+/// with an inverse, C two radii, h a small one, w below 0, W 0 or more; or the choices themselves:
+/// a|b.
+struct DependentKeys {
   std::string_view type;
   std::string_view keys;
 };
 
-inline constexpr NodeGrammar kNodeGrammar[] = {
-    {"constant", "value=r"},
-    {"x", ""},
-    {"y", ""},
-    {"z", ""},
-    {"add", "inputs=N"},
-    {"add", "a=n b=n"},
-    {"mul", "inputs=N"},
-    {"min", "inputs=N"},
-    {"max", "a=n b=n"},
-    {"sub", "a=n b=n"},
-    {"div", "a=n b=n"},
-    {"mod", "a=n b=n"},
-    {"pow", "a=n b=n"},
-    {"abs", "source=n"},
-    {"neg", "source=n"},
-    {"sqrt", "source=n"},
-    {"floor", "source=n"},
-    {"fract", "source=n"},
-    {"sin", "source=n"},
+inline constexpr DependentKeys kDependentKeys[] = {
     {"clamp", "source=n min=w max=W"},
     {"remap", "source=n from=R to=R"},
     {"smoothstep", "source=n edges=E"},
-    {"mix", "a=n b=n t=n"},
-    {"select", "a=n b=n control=n threshold=r? blend=u?"},
-    {"curve", "source=n points=P interpolation=linear|smooth|steps?"},
     {"terrace", "source=n step=p offset=r? ramp=f?"},
     {"terrace", "source=n levels=L ramp=f?"},
-    {"floor-hard", "source=n height=r? weight=u"},
-    {"white", "frequency=p? seed=s? dims=d?"},
-    {"value", "frequency=p? seed=s? dims=d?"},
-    {"value-cubic", "frequency=p? seed=s? dims=d?"},
-    {"perlin", "frequency=p? seed=s? dims=d?"},
-    {"simplex", "frequency=p? seed=s? dims=d?"},
-    {"opensimplex2", "frequency=p? seed=s? dims=d?"},
-    {"cellular",
-     "frequency=p? seed=s? dims=d? jitter=f? return=value|f1|f2|f2-f1? "
-     "metric=euclidean|manhattan|chebyshev?"},
     {"unity-perlin2d", "frequency=p? dims=D?"},
     {"unity-perlin2d", "x=n y=n"},
-    {"fbm", "source=n octaves=o? lacunarity=l? gain=g? weighted=f? dims=d?"},
-    {"ridged", "source=n octaves=o? lacunarity=l? gain=g? weighted=f? dims=d?"},
-    {"billow", "source=n octaves=o? lacunarity=l? gain=g? weighted=f? dims=d?"},
-    {"pingpong", "source=n octaves=o? lacunarity=l? gain=g? weighted=f? strength=l? dims=d?"},
     {"warp", "source=n warp=n amplitude=r?"},
     {"warp", "source=n warp=n mode=progressive|independent octaves=o? lacunarity=l? gain=g?"},
-    {"translate", "source=n by=v"},
     {"rotate", "source=n degrees=r axis=x|y|z? center=v?"},
     {"rotate", "source=n degrees=t"},
     {"scale", "source=n factor=V center=v? values=keep|scale?"},
     {"affine", "source=n matrix=M"},
-    {"mirror", "source=n axis=x|y|z at=r? keep=above|below?"},
     {"repeat", "source=n period=p copies=c?"},
-    {"sphere", "radius=p center=v?"},
-    {"box", "size=V center=v?"},
     {"plane", "normal=V? offset=r?"},
-    {"torus", "radius=p tube=p center=v? axis=x|y|z?"},
     {"roundbox", "size=V radius=h center=v?"},
-    {"capsule", "from=v to=v radius=p"},
-    {"cylinder", "radius=p height=p center=v? axis=x|y|z?"},
     {"cone", "radius=C height=p center=v? axis=x|y|z?"},
-    {"ellipsoid", "radii=V center=v?"},
-    {"gyroid", "period=p thickness=p? center=v?"},
-    {"union", "inputs=N smooth=u?"},
-    {"intersection", "a=n b=n smooth=u?"},
-    {"difference", "a=n b=n smooth=u?"},
-    {"complement", "source=n"},
-    {"offset", "source=n distance=r"},
-    {"shell", "source=n thickness=p side=inside|both|outside?"},
 };
 
 class RandomSpec {
  public:
+  /// How nodes of one type may look: its row, and keys in its place where they depend on each
+  /// other.
+  struct Grammar {
+    std::string_view type;
+    const graph::NodeRow* row = nullptr;
+    std::string_view keys{};
+  };
+
   explicit RandomSpec(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  /// Of all types that need no file.
+  static const std::vector<Grammar>& grammars() {
+    static const std::vector<Grammar> kAll = [] {
+      std::vector<Grammar> all;
+      for (const DependentKeys& keys : kDependentKeys)
+        all.push_back({keys.type, nullptr, keys.keys});
+      for (const graph::NodeRow* row : graph::node_rows()) {
+        const auto known = [&](const Grammar& grammar) { return grammar.type == row->name; };
+        if (row->check_samples == nullptr && std::ranges::none_of(all, known)) {
+          all.push_back({row->name, row});
+        }
+      }
+      return all;
+    }();
+    return kAll;
+  }
 
   /// The document; a grid of 9 x 6 x 5 samples around the origin.
   std::string text() {
@@ -165,9 +142,62 @@ class RandomSpec {
   }
 
   std::string object(int depth) {
-    const NodeGrammar& grammar = kNodeGrammar[below(std::size(kNodeGrammar))];
+    const Grammar& grammar = grammars()[below(static_cast<std::uint32_t>(grammars().size()))];
     std::string out = R"({"type": ")" + std::string(grammar.type) + "\"";
-    std::string_view rest = grammar.keys;
+    return out +
+           (grammar.row != nullptr ? keys_of(*grammar.row, depth + 1)
+                                   : keys_of(grammar.keys, depth + 1)) +
+           "}";
+  }
+
+  std::string keys_of(const graph::NodeRow& row, int depth) {
+    std::string out;
+    for (const graph::NodeKey& key : row.keys) {
+      if (!key.required && below(2) == 1) continue;
+      if (key.kind == graph::KeyKind::inputs && below(2) == 1) {
+        const std::string a = node(depth);
+        out += ", \"a\": " + a + ", \"b\": " + node(depth);
+      } else {
+        out += std::string(", \"") + key.name + "\": " + value_of(key, depth);
+      }
+    }
+    return out;
+  }
+
+  std::string value_of(const graph::NodeKey& key, int depth) {
+    switch (key.kind) {
+      case graph::KeyKind::node:
+        return node(depth);
+      case graph::KeyKind::inputs:
+        return list(1 + below(3), [&](std::size_t) { return node(depth); });
+      case graph::KeyKind::integer:
+        return std::to_string(static_cast<std::uint32_t>(key.range->lo) + below(4));
+      case graph::KeyKind::number:
+        return within(*key.range);
+      case graph::KeyKind::choice: {
+        const auto n =
+            std::ranges::count_if(key.choices, [](const char* w) { return w != nullptr; });
+        return '"' + std::string(key.choices[below(static_cast<std::uint32_t>(n))]) + '"';
+      }
+      case graph::KeyKind::points:
+        return points();
+      case graph::KeyKind::levels:
+        return levels(2 + below(4), false);
+      default:
+        return list(key.count, [&](std::size_t) { return within(*key.range); });
+    }
+  }
+
+  /// A multiple of 1/16 in the range, at most 3 on each side of 0.
+  std::string within(const NumberRange& range) {
+    const double lo = std::max(range.lo, -3.0);
+    const int least = static_cast<int>(std::ceil(lo * 16));
+    return in_16ths(range.lo == kPositiveFloat.lo ? 1 : least,
+                    static_cast<int>(std::min(range.hi, 3.0) * 16));
+  }
+
+  std::string keys_of(std::string_view rest, int depth) {
+    std::string out;
     while (!rest.empty()) {
       const std::size_t end = std::min(rest.find(' '), rest.size());
       std::string_view word = rest.substr(0, end);
@@ -177,10 +207,10 @@ class RandomSpec {
       if (!optional || below(2) == 0) {
         const std::size_t equals = word.find('=');
         out += ", \"" + std::string(word.substr(0, equals)) +
-               "\": " + value(word.substr(equals + 1), depth + 1);
+               "\": " + value(word.substr(equals + 1), depth);
       }
     }
-    return out + "}";
+    return out;
   }
 
   std::string value(std::string_view code, int depth) {
@@ -188,12 +218,8 @@ class RandomSpec {
     switch (code.front()) {
       case 'n':
         return node(depth);
-      case 'N':
-        return list(1 + below(3), [&](std::size_t) { return node(depth); });
       case 'p':
         return positive();
-      case 'u':
-        return in_16ths(0, 32);
       case 'f':
         return in_16ths(0, 16);
       case 'h':
@@ -202,10 +228,6 @@ class RandomSpec {
         return in_16ths(-32, -1);
       case 'W':
         return in_16ths(0, 32);
-      case 's':
-        return whole(4);
-      case 'd':
-        return choice("xyz|xy|xz|yz");
       case 'D':
         return choice("xy|xz|yz");
       case 'o':
@@ -220,8 +242,6 @@ class RandomSpec {
       case 'R':
       case 'L':
         return levels(code.front() == 'L' ? 2 + below(4) : 2, code.front() == 'R');
-      case 'P':
-        return points();
       case 'M':
         return matrix();
       case 'C':

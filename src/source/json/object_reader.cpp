@@ -85,23 +85,25 @@ std::int64_t ObjectReader::integer(const char* key, std::optional<std::int64_t> 
   return static_cast<std::int64_t>(v);
 }
 
-void ObjectReader::read_numbers(const JsonValue& found, const NumberRange& range, bool one_for_all,
-                                double* out, std::size_t n) {
-  if (one_for_all && found.kind == JsonKind::number) {
-    std::fill_n(out, n, read_number(found, range));
+void ObjectReader::numbers(const char* key, bool is_required, const NumberRange& range,
+                           bool one_for_all, std::span<double> out) {
+  const JsonValue* found = is_required ? required(key) : optional(key);
+  if (found == nullptr) return;
+  if (one_for_all && found->kind == JsonKind::number) {
+    std::ranges::fill(out, read_number(*found, range));
     return;
   }
-  std::fill_n(out, n, std::clamp(1.0, range.lo, range.hi));
-  if (found.kind != JsonKind::array || found.items.size() != n) {
+  std::ranges::fill(out, std::clamp(1.0, range.lo, range.hi));
+  if (found->kind != JsonKind::array || found->items.size() != out.size()) {
     const std::string size =
-        found.kind == JsonKind::array ? " of " + std::to_string(found.items.size()) : "";
-    document_.fault(found, as_found(found) + size + ": expected " +
-                               (one_for_all ? "a number or " : "") + "an array of " +
-                               std::to_string(n) + " numbers");
+        found->kind == JsonKind::array ? " of " + std::to_string(found->items.size()) : "";
+    document_.fault(*found, as_found(*found) + size + ": expected " +
+                                (one_for_all ? "a number or " : "") + "an array of " +
+                                std::to_string(out.size()) + " numbers");
     return;
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    out[i] = read_number(found.items[i], range);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i] = read_number(found->items[i], range);
   }
 }
 

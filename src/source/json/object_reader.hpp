@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/number_range.hpp"
 #include "source/json/json_tree.hpp"
 
 // Reads the keys of one JSON object in a closed format: what is asked for is known, everything else
@@ -28,21 +30,6 @@ struct JsonDocument {
 
 /// `is 99`, `is "fast"`, `is an array`: how a message begins.
 [[nodiscard]] std::string as_found(const JsonValue& value);
-
-/// Limits of a number; `text` says them, as in "a number above 0".
-struct NumberRange {
-  double lo = -1.7976931348623157e308;
-  double hi = 1.7976931348623157e308;
-  bool lo_excluded = false;
-  const char* text = "a number";
-};
-/// Numbers that a float32 can hold.
-inline constexpr NumberRange kAnyFloat{-3.4028234663852886e38, 3.4028234663852886e38, false,
-                                       "a number within +-3.4e38 (float32)"};
-inline constexpr NumberRange kPositiveFloat{1.1754943508222875e-38, 3.4028234663852886e38, false,
-                                            "a number above 0 (1.2e-38 to 3.4e38, float32)"};
-inline constexpr NumberRange kFloatNotNegative{0, 3.4028234663852886e38, false,
-                                               "a number from 0 to 3.4e38 (float32)"};
 
 class ObjectReader {
  public:
@@ -66,14 +53,13 @@ class ObjectReader {
   template <std::size_t N>
   std::array<double, N> numbers(const char* key, std::optional<std::array<double, N>> fallback,
                                 const NumberRange& range, bool one_for_all = false) {
-    std::array<double, N> out{};
-    const JsonValue* found = fallback ? optional(key) : required(key);
-    if (found == nullptr) {
-      return fallback.value_or(out);
-    }
-    read_numbers(*found, range, one_for_all, out.data(), N);
+    std::array<double, N> out = fallback.value_or(std::array<double, N>{});
+    numbers(key, !fallback, range, one_for_all, out);
     return out;
   }
+  /// As many numbers as `out` has; where the key is absent it stays as it is.
+  void numbers(const char* key, bool is_required, const NumberRange& range, bool one_for_all,
+               std::span<double> out);
   /// One of `choices`; its place among them. The fallback is a place too.
   std::size_t choice(const char* key, std::optional<std::size_t> fallback,
                      const std::vector<std::string>& choices);
@@ -85,8 +71,6 @@ class ObjectReader {
   void finish();
 
  private:
-  void read_numbers(const JsonValue& found, const NumberRange& range, bool one_for_all, double* out,
-                    std::size_t n);
   double read_number(const JsonValue& found, const NumberRange& range);
 
   const JsonDocument& document_;

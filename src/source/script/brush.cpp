@@ -5,13 +5,17 @@
 #include <cmath>
 #include <utility>
 
-#include "source/spec/placing.hpp"
+#include "field/placing.hpp"
 
 // The keys of shapes are those that mc-volume's solids have.
 
 namespace mc::source {
 
 namespace {
+
+using field::Matrix3;
+using field::product;
+using field::rotation_about;
 
 constexpr Matrix3 kIdentity{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string>
 
+#include "field/placing.hpp"
 #include "source/script/brush.hpp"
 #include "source/script/record_reader.hpp"
-#include "source/spec/placing.hpp"
 
 // Stamps: another volume, and where it goes. A place of the stamp's own world is turned and scaled
 // about its pivot, then moved; the way back leads from the script's space to the stamp's samples.
@@ -13,6 +13,8 @@
 namespace mc::source {
 
 namespace {
+
+using field::Matrix3;
 
 constexpr double kMostEntry = 1e100;  // as of SampledVolume
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "graph/node_types.hpp"
 #include "mc/graph.hpp"
 #include "source/json/object_reader.hpp"
 #include "source/spec/spec_files.hpp"
@@ -40,22 +41,11 @@ class NodeLoader {
   NodeId load_name(const JsonValue& reference);
   NodeId load_object(const JsonValue& value);
   NodeId resolve(const std::string& name, const JsonValue& reference);
-  /// `name` is the type's: translate, rotate, scale and affine are one NodeType.
-  void fill(Node& node, ObjectReader& keys, const std::string& name);
-  void fill_generator(Node& node, ObjectReader& keys);
-  void fill_unity(Node& node, ObjectReader& keys);
-  void fill_fractal(Node& node, ObjectReader& keys);
-  void fill_warp(Node& node, ObjectReader& keys);
-  void fill_solid(Node& node, ObjectReader& keys);
-  void fill_shell(Node& node, ObjectReader& keys);
-  void fill_shaping(Node& node, ObjectReader& keys);
-  void fill_control(Node& node, ObjectReader& keys);
-  void fill_points(Node& node, ObjectReader& keys);
-  void fill_steps(Node& node, ObjectReader& keys);
-  void fill_transform(Node& node, ObjectReader& keys, const std::string& name);
-  void fill_heightmap(Node& node, ObjectReader& keys);
-  void fill_volume(Node& node, ObjectReader& keys);
-  void fill_repeat(Node& node, ObjectReader& keys);
+  /// Reads the row's keys, and what they name, into the node.
+  void fill(Node& node, ObjectReader& keys, const graph::NodeRow& row);
+  void read_key(Node& node, ObjectReader& keys, const graph::NodeKey& key, graph::GivenKeys& given);
+  /// Reads what is worth it only where the keys go together: pairs, lists and files.
+  void read_contents(Node& node, ObjectReader& keys, const graph::NodeKeys& row);
   void take_input(Node& node, ObjectReader& keys, const char* key);
   void take_inputs(Node& node, ObjectReader& keys);
   NodeId add(Node node, const JsonValue& at);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "source/spec/placing.hpp"
+#include "field/placing.hpp"
 #include "source/spec/spec.hpp"
 
 // What the keys of solids, transforms and control nodes mean: values at one place of a document.
@@ -61,7 +61,7 @@ TEST(SpecTransforms, ScaleKeepsValuesUnlessToldOtherwise) {
 }
 
 TEST(Placing, QuarterTurnsAreExactAndOthersAreRotations) {
-  using source::rotation_about;
+  using field::rotation_about;
   for (const double turn : {0.0, 360.0, -720.0, 3600000000000.0}) {
     EXPECT_EQ(rotation_about({0, 1, 0}, 90 + turn)[0], (Vec3{0, 0, 1})) << turn;
     EXPECT_EQ(rotation_about({1, 0, 0}, 180 + turn)[1], (Vec3{0, -1, 0})) << turn;

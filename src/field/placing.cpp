@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "source/spec/placing.hpp"
+#include "field/placing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "base/vectors.hpp"
 #include "mc/field.hpp"
 
-namespace mc::source {
+namespace mc::field {
 
 namespace {
 
@@ -74,4 +74,4 @@ std::vector<float> placed(const Matrix3& m, const Vec3& from, const Vec3& to) {
   return matrix;
 }
 
-}  // namespace mc::source
+}  // namespace mc::field

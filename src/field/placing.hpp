@@ -10,7 +10,7 @@
 // The matrices of transform nodes, worked out in double without the C library's sine, whose last
 // bit differs between machines.
 
-namespace mc::source {
+namespace mc::field {
 
 using Matrix3 = std::array<Vec3, 3>;  // rows
 
@@ -27,4 +27,4 @@ using Matrix3 = std::array<Vec3, 3>;  // rows
 /// The 3 x 4 float matrix, row by row, of p -> m (p - from) + to.
 [[nodiscard]] std::vector<float> placed(const Matrix3& m, const Vec3& from, const Vec3& to);
 
-}  // namespace mc::source
+}  // namespace mc::field
