@@ -6,11 +6,12 @@
 
 A picture is the square from -2 to 2 of the plane z = 0, x to the right, y up (noises of xz: z up). A
 shape is warm where the field is solid, with lines of equal value every 1/4; a value is grey from its
-least to its largest. Look at the pictures before they are committed.
+least to its largest. A node that is not in SECTIONS is drawn with the keys that it needs. Look at the pictures before they are committed.
 """
 
 import json
 import pathlib
+import re
 import struct
 import subprocess
 import sys
@@ -121,6 +122,37 @@ SECTIONS = {
 }
 
 
+def plain_value(schema):
+    """A value that a key's schema takes: of numbers 1, of nodes x."""
+    if "enum" in schema:
+        return schema["enum"][0]
+    if schema.get("$ref") == "#/$defs/node":
+        return "x"
+    if schema.get("type") == "array":
+        return [plain_value(schema["items"])] * schema["minItems"]
+    return plain_value(schema["oneOf"][0]) if "oneOf" in schema else 1
+
+
+def with_plain_nodes(sections):
+    """The sections, and in each the nodes that mc-volume(5) has there besides: what they need, no more."""
+    page = (ROOT / "man" / "mc-volume.5.md").read_text()
+    schema = json.loads((ROOT / "data" / "mc-volume.schema.json").read_text())
+    out = {}
+    for section, nodes in sections.items():
+        out[section] = dict(nodes)
+        text = page.split(f"\n## {section}\n")[1].split("\n## ")[0]
+        for head in re.findall(r"^(\*\*.*)\n:   ", text, re.MULTILINE):
+            for name in re.findall(r"\*\*([a-z0-9-]+)\*\*", head):
+                if name in nodes:
+                    continue
+                keys = schema["$defs"][f"{name}-node"]
+                needed = {key: plain_value(keys["properties"][key])
+                          for key in keys["required"] if key != "type"}
+                style = "graph" if "source" in needed else "value" if section == "Generators" else "shape"
+                out[section][name] = (style, node(name, **needed))
+    return out
+
+
 def sample(mc, field, upright):
     """Rows of values, the upper row first; of the plane y = 0 or, upright, z = 0."""
     low = -2 + STEP / 2
@@ -205,11 +237,12 @@ HEAD = [
 
 def main():
     mc, *wanted = sys.argv[1:]
-    for nodes in SECTIONS.values():
+    sections = with_plain_nodes(SECTIONS)
+    for nodes in sections.values():
         for name, (style, field) in nodes.items():
             if not wanted or name in wanted:
                 draw(mc, name, style, field)
-    write_page(ROOT / "data" / "nodes.md", HEAD, "nodes", SECTIONS, text_of_node)
+    write_page(ROOT / "data" / "nodes.md", HEAD, "nodes", sections, text_of_node)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "graph/node_types.hpp"
 #include "mc/graph.hpp"
 
 // Seeded random graphs that are valid: every type of node, inputs from all before it, numbers that
@@ -31,7 +32,18 @@ class RandomGraph {
   [[nodiscard]] const Graph& graph() const { return graph_; }
 
  private:
-  static constexpr auto kLast = static_cast<int>(NodeType::shell);
+  /// All types but those that read samples.
+  static const std::vector<NodeType>& types() {
+    static const std::vector<NodeType> kTypes = [] {
+      std::vector<NodeType> all;
+      for (const graph::NodeRow* row : graph::node_rows()) {
+        const bool is_new = all.empty() || all.back() != row->type;
+        if (row->check_samples == nullptr && is_new) all.push_back(row->type);
+      }
+      return all;
+    }();
+    return kTypes;
+  }
 
   float real(float lo, float hi) { return std::uniform_real_distribution<float>(lo, hi)(random_); }
   int whole(int lo, int hi) { return std::uniform_int_distribution<int>(lo, hi)(random_); }
@@ -56,7 +68,7 @@ class RandomGraph {
 
   Node node() {
     Node out;
-    out.type = static_cast<NodeType>(whole(0, kLast));
+    out.type = types()[static_cast<std::size_t>(whole(0, static_cast<int>(types().size()) - 1))];
     for (float& number : out.numbers) number = real(-3, 3);
     out.seed = static_cast<std::uint32_t>(whole(0, 3));
     if (whole(0, 2) == 0) out.dims = static_cast<Dims>(whole(0, 3));
@@ -69,7 +81,14 @@ class RandomGraph {
         complete_shape(out)) {
       return;
     }
-    out.inputs = inputs(1);
+    for (const graph::NodeKey& key : graph::row_of(out.type).keys) {
+      if (key.kind == graph::KeyKind::node) {
+        out.inputs.push_back(input());
+      } else if (key.kind == graph::KeyKind::number && key.at >= 0) {
+        float& number = out.numbers[static_cast<std::size_t>(key.at)];
+        number = static_cast<float>(std::clamp(double{number}, key.range->lo, key.range->hi));
+      }
+    }
   }
 
   /// Of several fields.
