@@ -58,7 +58,7 @@ struct NodeKey {
   const char* all_zero = nullptr;                   ///< the fault of numbers that are all 0
   const char* any_zero = nullptr;                   ///< that of a number that is 0 or near it
   void (*set)(Node& node, double value) = nullptr;  ///< of a number, or of a choice's place
-  /// Whether the key may be there beside what was read before it; null: always. Where it may not,
+  /// Whether the key may be there beside what was read before it; null: always. If it may not,
   /// `idle` is the fault, or it counts as an unknown key.
   bool (*applies)(const GivenKeys& given) = nullptr;
   const char* idle = nullptr;

@@ -9,8 +9,10 @@
 
 // The table of node types. A row is all that is known of one: its name and keys in an mc-volume
 // document, and how it becomes operations, each of which has a row in ops.def. The rows are in
-// nodes/, a file for each section of mc-volume(5). A new node type is an enumerator of NodeType and
-// a row; its entry in the manual page and the schema are held against the row by tests.
+// nodes/, by the sections of mc-volume(5). A new node type is an enumerator at the end of
+// NodeType, a row, an entry in the manual page and a test. `MC_TEST_WRITE=1 mc_tests
+// --gtest_filter=NodeTable.*` then writes the schema and the page's list of keys from the row,
+// scripts/node_pictures.py the picture; without the variable the tests compare them with the row.
 
 namespace mc::graph {
 
@@ -28,7 +30,7 @@ struct NodeRow {
   void (*make)(Node& node, GivenKeys& given) = nullptr;
   /// Whether Node::list is as the type needs it; null: there is none.
   bool (*takes_list)(std::span<const float> list) = nullptr;
-  /// Throws Error(usage) where the samples that the node reads are wrong.
+  /// Throws Error(usage) if the samples that the node reads are wrong.
   void (*check_samples)(const Node& node) = nullptr;
 };
 
@@ -38,7 +40,7 @@ struct NodeRow {
 /// A row of the type.
 [[nodiscard]] const NodeRow& row_of(NodeType type);
 
-/// The row of that name; null where there is none.
+/// The row of that name; null if there is none.
 [[nodiscard]] const NodeRow* find_row(std::string_view name);
 
 }  // namespace mc::graph

@@ -114,7 +114,7 @@ inline double least_factor(const GivenKeys& given) {
   return std::min({std::abs(factor[0]), std::abs(factor[1]), std::abs(factor[2])});
 }
 
-/// Where it has a zero, the keys after it count as unknown.
+/// If a factor is 0, the keys after it count as unknown.
 inline bool has_inverse(const GivenKeys& given) {
   return !given["factor"].present || least_factor(given) >= kPositiveFloat.lo;
 }

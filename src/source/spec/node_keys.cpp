@@ -21,7 +21,7 @@ using graph::NodeKey;
 
 constexpr std::size_t kMostPoints = 256;
 
-/// An array of 2 to kMostPoints items; a fault where it is not.
+/// An array of 2 to kMostPoints items; a fault if it is not.
 bool are_points(const JsonDocument& document, const JsonValue& found, const char* what) {
   const bool is_array = found.kind == JsonKind::array;
   if (is_array && found.items.size() >= 2 && found.items.size() <= kMostPoints) return true;
@@ -31,7 +31,7 @@ bool are_points(const JsonDocument& document, const JsonValue& found, const char
   return false;
 }
 
-/// The number, as float; none, and a fault, where it is no number that a float can hold.
+/// The number, as float; none, and a fault, if it is no number that a float can hold.
 std::optional<float> as_float(const JsonDocument& document, const JsonValue& item) {
   if (item.kind == JsonKind::number && item.number >= kAnyFloat.lo && item.number <= kAnyFloat.hi) {
     return static_cast<float>(item.number);
@@ -40,7 +40,7 @@ std::optional<float> as_float(const JsonDocument& document, const JsonValue& ite
   return std::nullopt;
 }
 
-/// Whether `next` comes after all `stride`-th numbers of the list; a fault where it does not.
+/// Whether `next` comes after all `stride`-th numbers of the list; a fault if it does not.
 bool rises(const JsonDocument& document, const JsonValue& item, const std::vector<float>& list,
            std::size_t stride, float next) {
   if (list.empty() || next > list[list.size() - stride]) {

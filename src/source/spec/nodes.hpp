@@ -44,7 +44,7 @@ class NodeLoader {
   /// Reads the row's keys, and what they name, into the node.
   void fill(Node& node, ObjectReader& keys, const graph::NodeRow& row);
   void read_key(Node& node, ObjectReader& keys, const graph::NodeKey& key, graph::GivenKeys& given);
-  /// Reads what is worth it only where the keys go together: pairs, lists and files.
+  /// Reads pairs, lists and files, once the keys are known to go together.
   void read_contents(Node& node, ObjectReader& keys, const graph::NodeKeys& row);
   void take_input(Node& node, ObjectReader& keys, const char* key);
   void take_inputs(Node& node, ObjectReader& keys);

@@ -334,7 +334,7 @@ std::string default_of(const NodeKey& key) {
   return out.str();
 }
 
-/// Lines of the page: each key, what it may hold, what it is where it is left out, and whose.
+/// Lines of the page: each key, what it may hold, its default, and the nodes that have it.
 std::string list_of_keys() {
   constexpr std::size_t kWidth = 118;
   std::map<std::string, std::map<std::array<std::string, 2>, std::string>> keys;
