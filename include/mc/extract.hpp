@@ -40,7 +40,7 @@ struct ExtractOptions {
   double cutoff = 0;  ///< edges whose values differ by less take the midpoint; >= 0
   double min_edge =
       1.0 / 1024;  ///< in [0, 0.5]: t is kept in [E, 1-E]; 0 allows coincident vertices
-  Precision precision = Precision::f32;  ///< of chunk positions
+  Precision precision = Precision::f32;  ///< of positions
   Vec3 origin{};                         ///< subtracted from every position before rounding
   bool measure = false;                  ///< also sum area and volume (costs about as much again)
   /// Only the mesh of these layers, which lie within part_layers(); normals and the border are

@@ -118,18 +118,34 @@ class MeshSink {
   void put(const MeshChunk& chunk);
 };
 
-/// A mesh in memory.
+/// A mesh in memory. Positions are in one of two buffers, and triangles are in one of two; the
+/// other one is empty. A mesh that was read from a file may have triangles with ids past the last
+/// vertex.
 struct Mesh {
   Buffer<std::array<float, 3>> positions;
+  Buffer<Vec3> positions_f64;            ///< instead, if positions are in double precision
   Buffer<std::array<float, 3>> normals;  ///< one a vertex, or none
+  /// Vertex ids, counter-clockwise seen from outside.
   Buffer<std::array<std::uint32_t, 3>> triangles;
-};
+  Buffer<std::array<std::uint64_t, 3>>
+      triangles_u64;  ///< instead, if an id needs more than 32 bits
 
-/// A mesh read back from a file, as `check` wants it: what is there, also where it is wrong.
-struct MeshSoup {
-  std::vector<Vec3> positions;
-  std::vector<std::array<float, 3>> normals;            ///< one a vertex, or none
-  std::vector<std::array<std::uint64_t, 3>> triangles;  ///< may be out of range: check says so
+  [[nodiscard]] std::size_t n_vertices() const { return positions.size() + positions_f64.size(); }
+  [[nodiscard]] std::size_t n_triangles() const { return triangles.size() + triangles_u64.size(); }
+  [[nodiscard]] Vec3 position(std::size_t vertex) const {
+    if (positions.empty()) return positions_f64[vertex];
+    const auto& p = positions[vertex];
+    return {double{p[0]}, double{p[1]}, double{p[2]}};
+  }
+  [[nodiscard]] std::array<std::uint64_t, 3> triangle(std::size_t number) const {
+    if (triangles.empty()) return triangles_u64[number];
+    const auto& ids = triangles[number];
+    return {ids[0], ids[1], ids[2]};
+  }
+  /// Appends a triangle. The first id that needs more than 32 bits moves all triangles to
+  /// triangles_u64.
+  void add_triangle(const std::array<std::uint64_t, 3>& ids);
+  void clear();  ///< keeps the memory
 };
 
 /// What `mc check` finds.
@@ -157,7 +173,7 @@ struct MeshReport {
 
 /// Checks a mesh.
 /// Errors   none: whatever is wrong is counted.
-/// Cost     O(n log n) time, about 40 bytes a triangle.
-MeshReport check_mesh(const MeshSoup& mesh);
+/// Cost     O(n log n) time, about 40 bytes a triangle besides the mesh.
+MeshReport check_mesh(const Mesh& mesh);
 
 }  // namespace mc

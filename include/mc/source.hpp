@@ -176,8 +176,9 @@ struct SourceFormat {
                                                      SourceFormats further = {});
 
 /// Reads a mesh: PLY, OBJ, STL (welded by exact position), glTF, GLB, decided by content. Several
-/// primitives or objects become one soup. "-" is stdin.
-/// Errors   input.
-MeshSoup read_mesh(const std::string& path);
+/// primitives or objects become one mesh. "-" is stdin.
+/// Shapes   positions are f32 if the file stores them so and no node of a glTF moves them, else
+/// f64. Errors   input.
+Mesh read_mesh(const std::string& path);
 
 }  // namespace mc

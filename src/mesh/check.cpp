@@ -19,7 +19,8 @@
 // then judged by itself, in parallel. An edge belongs to its lower vertex, a triangle to its
 // lowest. Triangles with an index out of range or a repeated vertex are no triangles to topology
 // and take no part in it. Sums of floating-point numbers are made block by block and added in
-// order, so that no figure depends on the thread count.
+// order, so that no figure depends on the thread count. Arithmetic is in double precision and on
+// 64-bit ids; positions and triangles are read in the width in which the mesh stores them.
 
 namespace mc {
 
@@ -27,17 +28,32 @@ namespace {
 
 constexpr std::size_t kBlock = std::size_t{1} << 15;  // vertices or triangles, one item of work
 
-using Triangle = std::array<std::uint64_t, 3>;
+template <class T>
+using Positions = std::span<const std::array<T, 3>>;
+template <class VertexId>
+using Triangle = std::array<VertexId, 3>;
+template <class VertexId>
+using Triangles = std::span<const Triangle<VertexId>>;
+
+template <class T>
+Vec3 at(Positions<T> positions, std::size_t vertex) {
+  const std::array<T, 3>& p = positions[vertex];
+  return {double{p[0]}, double{p[1]}, double{p[2]}};
+}
 
 bool finite(const Vec3& p) {
   return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
 }
 
-bool in_range(const Triangle& t, std::size_t n_vertices) {
+template <class VertexId>
+bool in_range(const Triangle<VertexId>& t, std::size_t n_vertices) {
   return t[0] < n_vertices && t[1] < n_vertices && t[2] < n_vertices;
 }
 
-bool repeats_vertex(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+template <class VertexId>
+bool repeats_vertex(const Triangle<VertexId>& t) {
+  return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+}
 
 /// Scales by the power of two that brings the largest component to [1/2, 1).
 void normalise(Vec3& v) {
@@ -90,20 +106,22 @@ void for_blocks(std::size_t n, const Body& body) {
 
 std::size_t block_count(std::size_t n) { return (n + kBlock - 1) / kBlock; }
 
-void measure_vertices(const MeshSoup& mesh, MeshReport& report) {
-  const bool normals = mesh.normals.size() == mesh.positions.size();
+template <class T>
+void measure_vertices(Positions<T> positions, std::span<const std::array<float, 3>> normals,
+                      MeshReport& report) {
+  const bool has_normals = normals.size() == positions.size();
   mesh::PositionIndex known;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    const Vec3& p = mesh.positions[v];
+  for (std::size_t v = 0; v < positions.size(); ++v) {
+    const Vec3 p = at(positions, v);
     const bool good_normal =
-        !normals || (std::isfinite(mesh.normals[v][0]) && std::isfinite(mesh.normals[v][1]) &&
-                     std::isfinite(mesh.normals[v][2]));
+        !has_normals || (std::isfinite(normals[v][0]) && std::isfinite(normals[v][1]) &&
+                         std::isfinite(normals[v][2]));
     if (!finite(p) || !good_normal) {
       ++report.not_finite;
     }
     if (finite(p)) {
       report.bounds.include(p);
-      report.duplicate_vertices += known.first(mesh.positions, v) != v ? 1 : 0;
+      report.duplicate_vertices += known.first(positions, v) != v ? 1 : 0;
     }
   }
 }
@@ -122,10 +140,11 @@ struct Measure {
   }
 };
 
-Measure measure(const MeshSoup& mesh, std::span<const Triangle> triangles, const Vec3& centre) {
+template <class T, class VertexId>
+Measure measure(Positions<T> positions, Triangles<VertexId> triangles, const Vec3& centre) {
   Measure sum;
-  for (const Triangle& t : triangles) {
-    if (!in_range(t, mesh.positions.size())) {
+  for (const Triangle<VertexId>& t : triangles) {
+    if (!in_range(t, positions.size())) {
       ++sum.out_of_range;
       continue;
     }
@@ -134,9 +153,9 @@ Measure measure(const MeshSoup& mesh, std::span<const Triangle> triangles, const
       continue;
     }
     ++sum.proper;
-    const Vec3& p = mesh.positions[t[0]];
-    const Vec3& q = mesh.positions[t[1]];
-    const Vec3& r = mesh.positions[t[2]];
+    const Vec3 p = at(positions, t[0]);
+    const Vec3 q = at(positions, t[1]);
+    const Vec3 r = at(positions, t[2]);
     if (!finite(p) || !finite(q) || !finite(r)) {
       continue;
     }
@@ -148,16 +167,18 @@ Measure measure(const MeshSoup& mesh, std::span<const Triangle> triangles, const
   return sum;
 }
 
-Measure measure_triangles(const MeshSoup& mesh, const Bounds& bounds) {
+template <class T, class VertexId>
+Measure measure_triangles(Positions<T> positions, Triangles<VertexId> triangles,
+                          const Bounds& bounds) {
   Vec3 centre{};
   if (!bounds.empty()) {
     for (std::size_t a = 0; a < 3; ++a) {
       centre[a] = bounds.lo[a] / 2 + bounds.hi[a] / 2;
     }
   }
-  std::vector<Measure> blocks(block_count(mesh.triangles.size()));
-  for_blocks(mesh.triangles.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
-    blocks[block] = measure(mesh, std::span(mesh.triangles).subspan(begin, end - begin), centre);
+  std::vector<Measure> blocks(block_count(triangles.size()));
+  for_blocks(triangles.size(), [&](std::size_t block, std::size_t begin, std::size_t end) {
+    blocks[block] = measure(positions, triangles.subspan(begin, end - begin), centre);
   });
   Measure sum;
   for (const Measure& block : blocks) {
@@ -174,18 +195,18 @@ struct Incidence {
   Buffer<Id> of;
 };
 
-bool proper(const Triangle& t, std::size_t n_vertices) {
+template <class VertexId>
+bool proper(const Triangle<VertexId>& t, std::size_t n_vertices) {
   return in_range(t, n_vertices) && !repeats_vertex(t);
 }
 
-template <class Id>
-Incidence<Id> gather(const MeshSoup& mesh) {
-  const std::size_t n = mesh.positions.size();
+template <class Id, class VertexId>
+Incidence<Id> gather(Triangles<VertexId> triangles, std::size_t n) {
   Incidence<Id> incidence;
   incidence.start.assign(n + 1, 0);
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle<VertexId>& t : triangles) {
     if (proper(t, n)) {
-      for (const std::uint64_t v : t) {
+      for (const VertexId v : t) {
         ++incidence.start[v];
       }
     }
@@ -193,9 +214,9 @@ Incidence<Id> gather(const MeshSoup& mesh) {
   std::inclusive_scan(incidence.start.begin(), incidence.start.end(), incidence.start.begin());
   incidence.of.resize(incidence.start[n]);
   // Filled from the back, so that each entry ends as the start of its vertex.
-  for (std::size_t t = mesh.triangles.size(); t-- > 0;) {
-    if (proper(mesh.triangles[t], n)) {
-      for (const std::uint64_t v : mesh.triangles[t]) {
+  for (std::size_t t = triangles.size(); t-- > 0;) {
+    if (proper(triangles[t], n)) {
+      for (const VertexId v : triangles[t]) {
         incidence.of[--incidence.start[v]] = static_cast<Id>(t);
       }
     }
@@ -228,7 +249,7 @@ class VertexJudge {
     spokes_.clear();
     opposite_.clear();
     for (std::size_t n = 0; n < n_triangles; ++n) {
-      const Triangle& t = triangle(n);
+      const auto& t = triangle(n);
       const std::size_t corner = t[0] == v ? 0 : t[1] == v ? 1 : 2;
       const std::uint64_t next = t[(corner + 1) % 3];
       const std::uint64_t last = t[(corner + 2) % 3];
@@ -299,18 +320,17 @@ class VertexJudge {
   std::vector<std::size_t> parent_;
 };
 
-template <class Id>
-Around look_around(const MeshSoup& mesh) {
-  const Incidence<Id> incidence = gather<Id>(mesh);
-  const std::size_t n = mesh.positions.size();
+template <class Id, class VertexId>
+Around look_around(Triangles<VertexId> triangles, std::size_t n) {
+  const Incidence<Id> incidence = gather<Id>(triangles, n);
   std::vector<Around> blocks(block_count(n));
   for_blocks(n, [&](std::size_t block, std::size_t begin, std::size_t end) {
     VertexJudge judge;
     for (std::size_t v = begin; v < end; ++v) {
       const std::size_t first = incidence.start[v];
       const std::size_t n_around = incidence.start[v + 1] - first;
-      const auto triangle = [&](std::size_t k) -> const Triangle& {
-        return mesh.triangles[incidence.of[first + k]];
+      const auto triangle = [&](std::size_t k) -> const Triangle<VertexId>& {
+        return triangles[incidence.of[first + k]];
       };
       if (n_around > 0) {
         judge.judge(v, n_around, triangle, blocks[block]);
@@ -325,9 +345,9 @@ Around look_around(const MeshSoup& mesh) {
 }
 
 /// Sets of vertices that triangles join, less those that none uses.
-template <class Id>
-std::uint64_t count_components(const MeshSoup& mesh, std::uint64_t n_referenced) {
-  const std::size_t n = mesh.positions.size();
+template <class Id, class VertexId>
+std::uint64_t count_components(Triangles<VertexId> triangles, std::size_t n,
+                               std::uint64_t n_referenced) {
   std::vector<Id> parent(n);
   std::iota(parent.begin(), parent.end(), Id{0});
   const auto root = [&](std::uint64_t v) {
@@ -337,7 +357,7 @@ std::uint64_t count_components(const MeshSoup& mesh, std::uint64_t n_referenced)
     return v;
   };
   std::uint64_t n_components = n_referenced;
-  for (const Triangle& t : mesh.triangles) {
+  for (const Triangle<VertexId>& t : triangles) {
     if (!proper(t, n)) {
       continue;
     }
@@ -351,18 +371,38 @@ std::uint64_t count_components(const MeshSoup& mesh, std::uint64_t n_referenced)
   return n_components;
 }
 
-template <class Id>
-void check_topology(const MeshSoup& mesh, std::uint64_t n_proper, MeshReport& report) {
-  const Around around = look_around<Id>(mesh);
+template <class Id, class VertexId>
+void check_topology(Triangles<VertexId> triangles, std::uint64_t n_proper, MeshReport& report) {
+  const std::size_t n = report.n_vertices;
+  const Around around = look_around<Id>(triangles, n);
   report.duplicate = around.duplicate;
   report.boundary_edges = around.boundary;
   report.nonmanifold_edges = around.crowded_edges;
   report.nonmanifold_vertices = around.torn;
   report.misoriented_edges = around.misoriented;
-  report.unreferenced_vertices = mesh.positions.size() - around.referenced;
+  report.unreferenced_vertices = n - around.referenced;
   report.euler = static_cast<std::int64_t>(around.referenced) -
                  static_cast<std::int64_t>(around.edges) + static_cast<std::int64_t>(n_proper);
-  report.components = count_components<Id>(mesh, around.referenced);
+  report.components = count_components<Id>(triangles, n, around.referenced);
+}
+
+template <class T, class VertexId>
+void check(Positions<T> positions, std::span<const std::array<float, 3>> normals,
+           Triangles<VertexId> triangles, MeshReport& report) {
+  report.n_vertices = positions.size();
+  report.n_triangles = triangles.size();
+  measure_vertices(positions, normals, report);
+  const Measure sum = measure_triangles(positions, triangles, report.bounds);
+  report.out_of_range = sum.out_of_range;
+  report.degenerate = sum.degenerate;
+  report.area = sum.area;
+  report.volume = sum.volume;
+  constexpr std::uint64_t kNarrow = std::numeric_limits<std::uint32_t>::max();
+  if (positions.size() < kNarrow && triangles.size() < kNarrow / 3) {
+    check_topology<std::uint32_t>(triangles, sum.proper, report);
+  } else {
+    check_topology<std::uint64_t>(triangles, sum.proper, report);
+  }
 }
 
 }  // namespace
@@ -374,21 +414,19 @@ bool MeshReport::defective(bool must_be_closed) const {
          (must_be_closed && !closed());
 }
 
-MeshReport check_mesh(const MeshSoup& mesh) {
+MeshReport check_mesh(const Mesh& mesh) {
   MeshReport report;
-  report.n_vertices = mesh.positions.size();
-  report.n_triangles = mesh.triangles.size();
-  measure_vertices(mesh, report);
-  const Measure sum = measure_triangles(mesh, report.bounds);
-  report.out_of_range = sum.out_of_range;
-  report.degenerate = sum.degenerate;
-  report.area = sum.area;
-  report.volume = sum.volume;
-  constexpr std::uint64_t kNarrow = std::numeric_limits<std::uint32_t>::max();
-  if (mesh.positions.size() < kNarrow && mesh.triangles.size() < kNarrow / 3) {
-    check_topology<std::uint32_t>(mesh, sum.proper, report);
+  const auto with_positions = [&]<class T>(Positions<T> positions) {
+    if (mesh.triangles_u64.empty()) {
+      check(positions, mesh.normals, Triangles<std::uint32_t>(mesh.triangles), report);
+    } else {
+      check(positions, mesh.normals, Triangles<std::uint64_t>(mesh.triangles_u64), report);
+    }
+  };
+  if (mesh.positions_f64.empty()) {
+    with_positions(Positions<float>(mesh.positions));
   } else {
-    check_topology<std::uint64_t>(mesh, sum.proper, report);
+    with_positions(Positions<double>(mesh.positions_f64));
   }
   return report;
 }

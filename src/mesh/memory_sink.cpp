@@ -17,6 +17,8 @@ namespace {
 /// A mesh of more bytes than a core's own cache would only push out what the cores work on.
 constexpr std::size_t kStreamedBytes = std::size_t{8} << 20;
 
+constexpr std::size_t kWordsOfDouble = sizeof(double) / sizeof(std::uint32_t);
+
 template <class T>
 bool has_room(const Buffer<T>& buffer, std::size_t n_more) {
   return n_more <= buffer.capacity() - buffer.size();
@@ -32,6 +34,7 @@ void make_room(Buffer<T>& buffer, std::size_t n_more) {
 /// What the mesh holds, or held when its memory was last used.
 std::size_t bytes_of(const Mesh& mesh) {
   return mesh.positions.capacity() * sizeof mesh.positions[0] +
+         mesh.positions_f64.capacity() * sizeof mesh.positions_f64[0] +
          mesh.normals.capacity() * sizeof mesh.normals[0] +
          mesh.triangles.capacity() * sizeof mesh.triangles[0];
 }
@@ -40,9 +43,7 @@ std::size_t bytes_of(const Mesh& mesh) {
 
 void MemorySink::start(Mesh& mesh) {
   mesh_ = &mesh;
-  mesh.positions.clear();
-  mesh.normals.clear();
-  mesh.triangles.clear();
+  mesh.clear();
 }
 
 void MemorySink::set_slots(std::size_t n_slots) { places_.resize(n_slots); }
@@ -53,20 +54,24 @@ void MemorySink::begin_object(const MeshObject& /*object*/) {
 
 void MemorySink::place(const MeshChunk& chunk, std::size_t slot) {
   Mesh& mesh = *mesh_;
-  places_[slot] = {mesh.positions.size(), mesh.triangles.size()};
+  places_[slot] = {mesh.n_vertices(), mesh.triangles.size()};
+  const std::size_t n_singles = chunk.positions.size() / 3;
+  const std::size_t n_doubles = chunk.positions_f64.size() / 3;
   const std::size_t n_normals = chunk.normals.size() / 3;
-  if (mesh.positions.size() + chunk.n_vertices() > std::numeric_limits<std::uint32_t>::max()) {
+  if (mesh.n_vertices() + chunk.n_vertices() > std::numeric_limits<std::uint32_t>::max()) {
     throw Error(ErrorKind::limit, {}, "the mesh has more than 2^32-1 vertices",
                 "extract it in parts");
   }
-  if (!has_room(mesh.positions, chunk.n_vertices()) || !has_room(mesh.normals, n_normals) ||
-      !has_room(mesh.triangles, chunk.n_triangles())) {
+  if (!has_room(mesh.positions, n_singles) || !has_room(mesh.positions_f64, n_doubles) ||
+      !has_room(mesh.normals, n_normals) || !has_room(mesh.triangles, chunk.n_triangles())) {
     const std::lock_guard alone(moving_);
-    make_room(mesh.positions, chunk.n_vertices());
+    make_room(mesh.positions, n_singles);
+    make_room(mesh.positions_f64, n_doubles);
     make_room(mesh.normals, n_normals);
     make_room(mesh.triangles, chunk.n_triangles());
   }
-  mesh.positions.resize(mesh.positions.size() + chunk.n_vertices());
+  mesh.positions.resize(mesh.positions.size() + n_singles);
+  mesh.positions_f64.resize(mesh.positions_f64.size() + n_doubles);
   mesh.normals.resize(mesh.normals.size() + n_normals);
   mesh.triangles.resize(mesh.triangles.size() + chunk.n_triangles());
 }
@@ -76,8 +81,14 @@ void MemorySink::write(const MeshChunk& chunk, std::size_t slot) {
   Mesh& mesh = *mesh_;
   const auto [vertex, triangle] = places_[slot];
   const Stores stores = bytes_of(mesh) > kStreamedBytes ? Stores::streamed : Stores::cached;
-  move_words(chunk.positions.data(), chunk.positions.size(), 0, mesh.positions.data() + vertex,
-             stores);
+  if (!chunk.positions.empty()) {
+    move_words(chunk.positions.data(), chunk.positions.size(), 0, mesh.positions.data() + vertex,
+               stores);
+  }
+  if (!chunk.positions_f64.empty()) {
+    move_words(chunk.positions_f64.data(), kWordsOfDouble * chunk.positions_f64.size(), 0,
+               mesh.positions_f64.data() + vertex, stores);
+  }
   if (!chunk.normals.empty()) {
     move_words(chunk.normals.data(), chunk.normals.size(), 0, mesh.normals.data() + vertex, stores);
   }

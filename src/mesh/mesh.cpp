@@ -34,6 +34,31 @@ void MeshChunk::clear() {
   indices.clear();
 }
 
+void Mesh::add_triangle(const std::array<std::uint64_t, 3>& ids) {
+  const bool is_narrow = (ids[0] | ids[1] | ids[2]) >> 32 == 0;
+  if (is_narrow && triangles_u64.empty()) {
+    triangles.push_back({static_cast<std::uint32_t>(ids[0]), static_cast<std::uint32_t>(ids[1]),
+                         static_cast<std::uint32_t>(ids[2])});
+    return;
+  }
+  if (triangles_u64.empty()) {
+    triangles_u64.reserve(std::max(triangles.capacity(), triangles.size() + 1));
+    for (const auto& t : triangles) {
+      triangles_u64.push_back({t[0], t[1], t[2]});
+    }
+    triangles = {};
+  }
+  triangles_u64.push_back(ids);
+}
+
+void Mesh::clear() {
+  positions.clear();
+  positions_f64.clear();
+  normals.clear();
+  triangles.clear();
+  triangles_u64.clear();
+}
+
 void MeshSink::set_slots(std::size_t /*n_slots*/) {}
 void MeshSink::format(const MeshChunk& /*chunk*/, std::size_t /*slot*/) {}
 void MeshSink::write(const MeshChunk& /*chunk*/, std::size_t /*slot*/) {}

@@ -17,7 +17,8 @@ constexpr std::uint64_t kIdMask = (std::uint64_t{1} << 40) - 1;
 /// The bits by which a coordinate is compared.
 std::uint64_t key(double x) { return std::bit_cast<std::uint64_t>(x + 0.0); }
 
-bool same_position(const Vec3& a, const Vec3& b) {
+template <class T>
+bool same_position(const std::array<T, 3>& a, const std::array<T, 3>& b) {
   return key(a[0]) == key(b[0]) && key(a[1]) == key(b[1]) && key(a[2]) == key(b[2]);
 }
 
@@ -30,9 +31,10 @@ std::uint64_t random_seed() {
 
 PositionIndex::PositionIndex() : seed_(random_seed()), slots_(1024, 0) {}
 
-std::uint64_t PositionIndex::hash(const Vec3& p) const {
+template <class T>
+std::uint64_t PositionIndex::hash(const std::array<T, 3>& p) const {
   std::uint64_t h = seed_;
-  for (const double x : p) {
+  for (const T x : p) {
     h = (h ^ key(x)) * 0xD6E8FEB86659FD93U;
     h ^= h >> 32;
   }
@@ -40,7 +42,8 @@ std::uint64_t PositionIndex::hash(const Vec3& p) const {
   return h ^ h >> 29;
 }
 
-std::uint64_t PositionIndex::first(std::span<const Vec3> positions, std::uint64_t id) {
+template <class T>
+std::uint64_t PositionIndex::first(std::span<const std::array<T, 3>> positions, std::uint64_t id) {
   assert(id < kIdMask && id < positions.size());
   if (n_known_ * 8 >= slots_.size() * 5) {
     grow(positions);
@@ -61,7 +64,8 @@ std::uint64_t PositionIndex::first(std::span<const Vec3> positions, std::uint64_
   }
 }
 
-void PositionIndex::grow(std::span<const Vec3> positions) {
+template <class T>
+void PositionIndex::grow(std::span<const std::array<T, 3>> positions) {
   std::vector<std::uint64_t> larger(slots_.size() * 2, 0);
   const std::uint64_t mask = larger.size() - 1;
   for (const std::uint64_t slot : slots_) {
@@ -75,5 +79,8 @@ void PositionIndex::grow(std::span<const Vec3> positions) {
   }
   slots_.swap(larger);
 }
+
+template std::uint64_t PositionIndex::first(std::span<const std::array<float, 3>>, std::uint64_t);
+template std::uint64_t PositionIndex::first(std::span<const std::array<double, 3>>, std::uint64_t);
 
 }  // namespace mc::mesh

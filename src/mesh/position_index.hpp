@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,12 +20,16 @@ class PositionIndex {
   PositionIndex();
 
   /// The id under which the position of `positions[id]` is known; it becomes known as `id` if it
-  /// was not. Ids up to 2^40. `positions` holds all that was asked about before.
-  std::uint64_t first(std::span<const Vec3> positions, std::uint64_t id);
+  /// was not. Ids up to 2^40. `positions` holds all that was asked about before. T is float or
+  /// double.
+  template <class T>
+  std::uint64_t first(std::span<const std::array<T, 3>> positions, std::uint64_t id);
 
  private:
-  [[nodiscard]] std::uint64_t hash(const Vec3& p) const;
-  void grow(std::span<const Vec3> positions);
+  template <class T>
+  [[nodiscard]] std::uint64_t hash(const std::array<T, 3>& p) const;
+  template <class T>
+  void grow(std::span<const std::array<T, 3>> positions);
 
   std::uint64_t seed_;
   std::uint64_t n_known_ = 0;

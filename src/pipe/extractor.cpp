@@ -113,10 +113,8 @@ void Extractor::extract(View3<const T> view, const ExtractOptions& options, cons
   Scratch& s = *scratch_;
   s.sink.start(mesh);
   check(view.dims, options);
-  ExtractOptions taken = options;
-  taken.precision = Precision::f32;
   try {
-    Scratch::Setup& setup = s.set_up(field::type_of<T>(), view.dims, taken, to_world);
+    Scratch::Setup& setup = s.set_up(field::type_of<T>(), view.dims, options, to_world);
     setup.reader.look_at(view);
     setup.tasks->forget();
     s.drive.run(*setup.tasks, setup.room, s.run_options, true, s.sink, silent_progress(), {});

@@ -48,7 +48,7 @@ void append(const Collected& part, Collected& all) {
     to.insert(to.end(), from.begin(), from.end());
   };
   add(part.mesh.positions, all.mesh.positions);
-  add(part.positions_f64, all.positions_f64);
+  add(part.mesh.positions_f64, all.mesh.positions_f64);
   add(part.mesh.normals, all.mesh.normals);
   for (const auto& t : part.mesh.triangles) {
     all.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
@@ -68,7 +68,7 @@ void expect_same_bytes(const Row& got, const Row& want) {
 
 void expect_same(const Collected& got, const Collected& want) {
   expect_same_bytes(got.mesh.positions, want.mesh.positions);
-  expect_same_bytes(got.positions_f64, want.positions_f64);
+  expect_same_bytes(got.mesh.positions_f64, want.mesh.positions_f64);
   expect_same_bytes(got.mesh.normals, want.mesh.normals);
   expect_same_bytes(got.mesh.triangles, want.mesh.triangles);
   ASSERT_EQ(got.totals.n_vertices, want.totals.n_vertices);
@@ -97,7 +97,7 @@ void compare_parts(const VolumeReader& reader, const ExtractOptions& options, st
       how.count_first = random() % 2 == 0;
       how.chunk_bytes = random() % 3 == 0 ? 4096 : 0;
       const Collected got = collect(reader, o, how);
-      ASSERT_EQ(got.totals.n_vertices, got.mesh.positions.size() + got.positions_f64.size());
+      ASSERT_EQ(got.totals.n_vertices, got.mesh.positions.size() + got.mesh.positions_f64.size());
       if (how.count_first) {
         ASSERT_EQ(got.object.n_vertices, got.totals.n_vertices);
         ASSERT_EQ(got.object.n_triangles, got.totals.n_triangles);

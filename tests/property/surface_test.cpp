@@ -48,7 +48,7 @@ TEST(Surface, ABlockGivesWhatPaperGives) {
 
 /// Watertight, manifold, oriented, and nothing degenerate: what every default mesh must be.
 void expect_sound(const Collected& got, bool closed) {
-  const MeshReport report = check_mesh(to_soup(got.mesh));
+  const MeshReport report = check_mesh(got.mesh);
   ASSERT_FALSE(report.defective(closed));
   ASSERT_EQ(report.unreferenced_vertices, 0U);
   ASSERT_EQ(report.duplicate_vertices, 0U);
@@ -80,7 +80,7 @@ void check_random_grids(Noise noise, std::uint64_t first_seed, int n_seeds) {
     expect_sound(capped, true);
     ASSERT_FALSE(testing::Test::HasFatalFailure());
     if (!capped.mesh.triangles.empty()) {
-      ASSERT_GT(check_mesh(to_soup(capped.mesh)).volume, 0);
+      ASSERT_GT(check_mesh(capped.mesh).volume, 0);
     }
   }
 }

@@ -16,7 +16,6 @@ namespace mc::test {
 
 struct Collected {
   Mesh mesh;
-  std::vector<std::array<double, 3>> positions_f64;
   std::vector<std::uint16_t> materials;
   MeshTotals totals;
   MeshObject object;
@@ -33,7 +32,7 @@ class CollectingSink final : public MeshSink {
   }
   void place(const MeshChunk& chunk, std::size_t /*slot*/) override {
     append(chunk.positions, out_.mesh.positions);
-    append(chunk.positions_f64, out_.positions_f64);
+    append(chunk.positions_f64, out_.mesh.positions_f64);
     append(chunk.normals, out_.mesh.normals);
     out_.materials.insert(out_.materials.end(), chunk.materials.begin(), chunk.materials.end());
     const auto base = static_cast<std::uint32_t>(chunk.index_base);

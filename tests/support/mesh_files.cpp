@@ -5,10 +5,11 @@
 
 namespace mc::test {
 
-MeshSoup tetrahedron() {
-  return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          .normals = {},
-          .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+Mesh tetrahedron() {
+  Mesh mesh;
+  mesh.positions_f64 = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  return mesh;
 }
 
 std::string tetrahedron_ply_text() {
@@ -24,15 +25,15 @@ std::string tetrahedron_ply_binary(bool big) {
                      "property short z\nelement face 4\n"
                      "property list uint16 uint vertex_index\nend_header\n";
   const auto number = [&](auto value) { file += big ? big_endian(value) : bytes_of(value); };
-  for (const Vec3& p : tetrahedron().positions) {
+  for (const Vec3& p : tetrahedron().positions_f64) {
     number(p[0]);
     number(static_cast<float>(p[1]));
     number(static_cast<std::int16_t>(p[2]));
   }
   for (const auto& t : tetrahedron().triangles) {
     number(std::uint16_t{3});
-    for (const std::uint64_t v : t) {
-      number(static_cast<std::uint32_t>(v));
+    for (const std::uint32_t v : t) {
+      number(v);
     }
   }
   return file;
@@ -44,13 +45,13 @@ std::string tetrahedron_obj() {
 }
 
 std::string tetrahedron_stl_text() {
-  const MeshSoup soup = tetrahedron();
+  const Mesh mesh = tetrahedron();
   std::string file = "solid by hand\n";
-  for (const auto& t : soup.triangles) {
+  for (const auto& t : mesh.triangles) {
     file += "facet normal 0 0 0\n  outer loop\n";
-    for (const std::uint64_t v : t) {
+    for (const std::uint32_t v : t) {
       file += "    vertex";
-      for (const double x : soup.positions[v]) {
+      for (const double x : mesh.positions_f64[v]) {
         file += x == 0 ? " 0" : " 1.0e+00";
       }
       file += "\n";
@@ -61,14 +62,14 @@ std::string tetrahedron_stl_text() {
 }
 
 std::string tetrahedron_stl_binary() {
-  const MeshSoup soup = tetrahedron();
+  const Mesh mesh = tetrahedron();
   std::string file = "solid, although binary";
   file.resize(80, ' ');
-  file += bytes_of(static_cast<std::uint32_t>(soup.triangles.size()));
-  for (const auto& t : soup.triangles) {
+  file += bytes_of(static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& t : mesh.triangles) {
     file += std::string(12, '\0');
-    for (const std::uint64_t v : t) {
-      for (const double x : soup.positions[v]) {
+    for (const std::uint32_t v : t) {
+      for (const double x : mesh.positions_f64[v]) {
         file += bytes_of(static_cast<float>(x));
       }
     }
@@ -79,13 +80,13 @@ std::string tetrahedron_stl_binary() {
 
 std::string tetrahedron_gltf_buffer() {
   std::string buffer;
-  for (const Vec3& p : tetrahedron().positions) {
+  for (const Vec3& p : tetrahedron().positions_f64) {
     for (const double x : p) {
       buffer += bytes_of(static_cast<float>(x));
     }
   }
   for (const auto& t : tetrahedron().triangles) {
-    for (const std::uint64_t v : t) {
+    for (const std::uint32_t v : t) {
       buffer += bytes_of(static_cast<std::uint16_t>(v));
     }
   }

@@ -28,8 +28,8 @@ std::string big_endian(T value) {
   return {bytes.rbegin(), bytes.rend()};
 }
 
-/// The tetrahedron (0,0,0) (1,0,0) (0,1,0) (0,0,1), wound outward.
-MeshSoup tetrahedron();
+/// The tetrahedron (0,0,0) (1,0,0) (0,1,0) (0,0,1), wound outward, in double precision.
+Mesh tetrahedron();
 
 std::string tetrahedron_ply_text();
 std::string tetrahedron_ply_binary(bool big);

@@ -48,9 +48,9 @@ std::uint64_t count_groups(const std::map<Item, std::set<Item>>& links) {
 
 }  // namespace
 
-MeshOracle::MeshOracle(const MeshSoup& mesh) {
-  report_.n_vertices = mesh.positions.size();
-  report_.n_triangles = mesh.triangles.size();
+MeshOracle::MeshOracle(const Mesh& mesh) {
+  report_.n_vertices = mesh.n_vertices();
+  report_.n_triangles = mesh.n_triangles();
   look_at_vertices(mesh);
   sort_out_triangles(mesh);
   measure(mesh);
@@ -59,15 +59,14 @@ MeshOracle::MeshOracle(const MeshSoup& mesh) {
   count_components();
 }
 
-MeshOracle::MeshOracle(const Mesh& mesh) : MeshOracle(to_soup(mesh)) {}
-
-void MeshOracle::look_at_vertices(const MeshSoup& mesh) {
+void MeshOracle::look_at_vertices(const Mesh& mesh) {
   std::set<Vec3> known;
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    bool good = finite(mesh.positions[v]);
+  for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
+    const Vec3 p = mesh.position(v);
+    bool good = finite(p);
     if (good) {
-      report_.bounds.include(mesh.positions[v]);
-      report_.duplicate_vertices += known.insert(mesh.positions[v]).second ? 0 : 1;
+      report_.bounds.include(p);
+      report_.duplicate_vertices += known.insert(p).second ? 0 : 1;
     }
     for (std::size_t n = 0; !mesh.normals.empty() && n < 3; ++n) {
       good = good && std::isfinite(mesh.normals[v][n]);
@@ -76,10 +75,11 @@ void MeshOracle::look_at_vertices(const MeshSoup& mesh) {
   }
 }
 
-void MeshOracle::sort_out_triangles(const MeshSoup& mesh) {
+void MeshOracle::sort_out_triangles(const Mesh& mesh) {
   std::set<Triangle> known;
-  for (const Triangle& t : mesh.triangles) {
-    if (*std::ranges::max_element(t) >= mesh.positions.size()) {
+  for (std::size_t n = 0; n < mesh.n_triangles(); ++n) {
+    const Triangle t = mesh.triangle(n);
+    if (*std::ranges::max_element(t) >= mesh.n_vertices()) {
       ++report_.out_of_range;
       continue;
     }
@@ -95,16 +95,16 @@ void MeshOracle::sort_out_triangles(const MeshSoup& mesh) {
       around_[v].push_back(t);
     }
   }
-  report_.unreferenced_vertices = mesh.positions.size() - around_.size();
+  report_.unreferenced_vertices = mesh.n_vertices() - around_.size();
 }
 
-void MeshOracle::measure(const MeshSoup& mesh) {
+void MeshOracle::measure(const Mesh& mesh) {
   long double area = 0;
   long double volume = 0;
   for (const Triangle& t : proper_) {
-    const Vec3& p = mesh.positions[t[0]];
-    const Vec3& q = mesh.positions[t[1]];
-    const Vec3& r = mesh.positions[t[2]];
+    const Vec3 p = mesh.position(t[0]);
+    const Vec3 q = mesh.position(t[1]);
+    const Vec3 r = mesh.position(t[2]);
     if (!finite(p) || !finite(q) || !finite(r)) {
       continue;
     }
@@ -170,18 +170,6 @@ void MeshOracle::count_components() {
     }
   }
   report_.components = count_groups(links);
-}
-
-MeshSoup to_soup(const Mesh& mesh) {
-  MeshSoup soup;
-  soup.normals.assign(mesh.normals.begin(), mesh.normals.end());
-  for (const auto& p : mesh.positions) {
-    soup.positions.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
-  }
-  for (const auto& t : mesh.triangles) {
-    soup.triangles.push_back({t[0], t[1], t[2]});
-  }
-  return soup;
 }
 
 }  // namespace mc::test

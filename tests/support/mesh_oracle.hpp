@@ -16,7 +16,6 @@ namespace mc::test {
 
 class MeshOracle {
  public:
-  explicit MeshOracle(const MeshSoup& mesh);
   explicit MeshOracle(const Mesh& mesh);
 
   [[nodiscard]] bool closed() const { return report_.boundary_edges == 0; }
@@ -34,9 +33,9 @@ class MeshOracle {
  private:
   using Triangle = std::array<std::uint64_t, 3>;
 
-  void look_at_vertices(const MeshSoup& mesh);
-  void sort_out_triangles(const MeshSoup& mesh);
-  void measure(const MeshSoup& mesh);
+  void look_at_vertices(const Mesh& mesh);
+  void sort_out_triangles(const Mesh& mesh);
+  void measure(const Mesh& mesh);
   void count_edges();
   void count_fans();
   void count_components();
@@ -45,8 +44,5 @@ class MeshOracle {
   std::map<std::uint64_t, std::vector<Triangle>> around_;
   MeshReport report_;
 };
-
-/// The soup of a mesh.
-MeshSoup to_soup(const Mesh& mesh);
 
 }  // namespace mc::test

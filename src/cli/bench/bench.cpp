@@ -38,7 +38,7 @@ DemoResult time_demo(std::int32_t n_cells, const RoundLimits& limits) {
   prove(surface, volume, fmt::format("demo {}^3", n_cells));
   const TimedBody body{1, [&] { surface.extract(); }};
   const Timing timing = time_rounds({&body, 1}, limits).front();
-  return {n_cells, surface.mesh().positions.size(), surface.mesh().triangles.size(), timing};
+  return {n_cells, surface.mesh().n_vertices(), surface.mesh().n_triangles(), timing};
 }
 
 /// One field with every number of threads, in the same rounds as reading its samples.
@@ -56,7 +56,7 @@ std::vector<FieldResult> time_field(const std::string& name, const BenchPlan& pl
   std::vector<FieldResult> results;
   for (std::size_t t = 0; t < plan.threads.size(); ++t) {
     results.push_back({name, plan.threads[t], volume.samples.size() / sample_size(volume.type),
-                       surface.mesh().positions.size(), surface.mesh().triangles.size(),
+                       surface.mesh().n_vertices(), surface.mesh().n_triangles(),
                        volume.samples.size(), surface.mesh_bytes(), timings[2 * t],
                        timings[2 * t + 1], bandwidths[t].read()});
   }

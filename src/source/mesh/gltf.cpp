@@ -39,7 +39,7 @@ class GltfReader {
              std::optional<std::span<const std::byte>> binary)
       : input_(input), document_(input, text, binary) {}
 
-  MeshSoup read() {
+  Mesh read() {
     const json& nodes = document_.list(document_.root(), "nodes", "");
     if (nodes.empty()) {
       for (std::size_t m = 0; m < document_.list(document_.root(), "meshes", "").size(); ++m) {
@@ -49,9 +49,9 @@ class GltfReader {
       walk(nodes);
     }
     if (!all_have_normals_) {
-      soup_.normals.clear();
+      mesh_.normals.clear();
     }
-    return std::move(soup_);
+    return std::move(mesh_);
   }
 
  private:
@@ -193,12 +193,9 @@ class GltfReader {
                         const GltfTransform& transform) {
     constexpr std::array<std::uint64_t, 1> kFloat = {5126};
     const GltfElements points = document_.elements(position, "VEC3", kFloat);
-    const Placed placed{position, normal, soup_.positions.size(), points.n};
+    const Placed placed{position, normal, mesh_.n_vertices(), points.n};
     expect_growth(points.n);
-    for (std::uint64_t v = 0; v < points.n; ++v) {
-      const std::array<float, 3> p = points.vector(v);
-      soup_.positions.push_back(transform({double{p[0]}, double{p[1]}, double{p[2]}}));
-    }
+    add_positions(points, transform);
     all_have_normals_ = all_have_normals_ && (normal != kNone || points.n == 0);
     if (!all_have_normals_ || normal == kNone) {
       return placed;
@@ -210,9 +207,26 @@ class GltfReader {
           std::to_string(normals.n) + " normals for " + std::to_string(points.n) + " positions");
     }
     for (std::uint64_t v = 0; v < normals.n; ++v) {
-      soup_.normals.push_back(transform.normal(normals.vector(v)));
+      mesh_.normals.push_back(transform.normal(normals.vector(v)));
     }
     return placed;
+  }
+
+  /// In single precision until a node moves vertices.
+  void add_positions(const GltfElements& points, const GltfTransform& transform) {
+    if (transform.is_identity() && mesh_.positions_f64.empty()) {
+      for (std::uint64_t v = 0; v < points.n; ++v) {
+        mesh_.positions.push_back(points.vector(v));
+      }
+      return;
+    }
+    for (const auto& p : std::exchange(mesh_.positions, {})) {
+      mesh_.positions_f64.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
+    }
+    for (std::uint64_t v = 0; v < points.n; ++v) {
+      const std::array<float, 3> p = points.vector(v);
+      mesh_.positions_f64.push_back(transform({double{p[0]}, double{p[1]}, double{p[2]}}));
+    }
   }
 
   void add_triangles(const json& primitive, const std::string& pointer, const Placed& vertices,
@@ -238,7 +252,7 @@ class GltfReader {
         const std::uint64_t index = indexed ? corners.index(c + k) : c + k;
         triangle[k] = index < vertices.n ? vertices.base + index : kOutOfRange;
       }
-      soup_.triangles.push_back({triangle[0], triangle[second], triangle[3 - second]});
+      mesh_.add_triangle({triangle[0], triangle[second], triangle[3 - second]});
     }
   }
 
@@ -254,18 +268,18 @@ class GltfReader {
 
   const MeshInput& input_;
   GltfDocument document_;
-  MeshSoup soup_;
+  Mesh mesh_;
   bool all_have_normals_ = true;
   std::uint64_t n_made_ = 0;
 };
 
 }  // namespace
 
-MeshSoup read_gltf(const MeshInput& input) {
+Mesh read_gltf(const MeshInput& input) {
   return GltfReader(input, input.text(), std::nullopt).read();
 }
 
-MeshSoup read_glb(const MeshInput& input) {
+Mesh read_glb(const MeshInput& input) {
   const GlbChunks chunks = split_glb(input);
   return GltfReader(input, chunks.json, chunks.binary).read();
 }

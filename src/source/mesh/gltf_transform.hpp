@@ -53,6 +53,10 @@ struct GltfTransform {
     });
   }
 
+  [[nodiscard]] bool is_identity() const {
+    return only_moves() && rows[0][3] == 0 && rows[1][3] == 0 && rows[2][3] == 0;
+  }
+
   /// Of the linear part.
   [[nodiscard]] double determinant() const { return determinant(cofactors()); }
 

@@ -53,10 +53,10 @@ T load(const std::byte* at, std::endian order = std::endian::little) {
 /// Cuts the triangles (first, a, b), (first, b, c), ... from corners that come one by one.
 class Fan {
  public:
-  explicit Fan(MeshSoup& soup) : soup_(soup) {}
+  explicit Fan(Mesh& mesh) : mesh_(mesh) {}
   void add(std::uint64_t vertex) {
     if (n_corners_ >= 2) {
-      soup_.triangles.push_back({first_, last_, vertex});
+      mesh_.add_triangle({first_, last_, vertex});
     } else if (n_corners_ == 0) {
       first_ = vertex;
     }
@@ -66,23 +66,23 @@ class Fan {
   [[nodiscard]] std::size_t n_corners() const { return n_corners_; }
 
  private:
-  MeshSoup& soup_;
+  Mesh& mesh_;
   std::uint64_t first_ = 0, last_ = 0;
   std::size_t n_corners_ = 0;
 };
 
-MeshSoup read_ply(const MeshInput& input);
-MeshSoup read_obj(const MeshInput& input);
-MeshSoup read_stl_ascii(const MeshInput& input);
-MeshSoup read_stl_binary(const MeshInput& input);
-MeshSoup read_gltf(const MeshInput& input);  ///< JSON text
-MeshSoup read_glb(const MeshInput& input);
+Mesh read_ply(const MeshInput& input);
+Mesh read_obj(const MeshInput& input);
+Mesh read_stl_ascii(const MeshInput& input);
+Mesh read_stl_binary(const MeshInput& input);
+Mesh read_gltf(const MeshInput& input);  ///< JSON text
+Mesh read_glb(const MeshInput& input);
 
 /// Whether the size is what the triangle count of a binary STL asks for.
 bool has_stl_size(std::span<const std::byte> bytes);
 
 /// Reads a mesh from memory. `extension` (".stl", lower case, may be empty) decides only where the
 /// content does not.
-MeshSoup parse_mesh(const MeshInput& input, std::string_view extension);
+Mesh parse_mesh(const MeshInput& input, std::string_view extension);
 
 }  // namespace mc::source

@@ -31,7 +31,7 @@ class ObjReader {
   explicit ObjReader(const MeshInput& input)
       : input_(input), cursor_(input, TextCursor::Words::within_line) {}
 
-  MeshSoup read() {
+  Mesh read() {
     while (!cursor_.at_file_end()) {
       if (!cursor_.at_end()) {
         read_statement();
@@ -39,7 +39,7 @@ class ObjReader {
       cursor_.skip_line();
     }
     attach_normals();
-    return std::move(soup_);
+    return std::move(mesh_);
   }
 
  private:
@@ -50,7 +50,7 @@ class ObjReader {
       for (double& x : p) {
         x = cursor_.number<double>("three coordinates");
       }
-      soup_.positions.push_back(p);  // a weight or a colour may follow
+      mesh_.positions_f64.push_back(p);  // a weight or a colour may follow
     } else if (word == "f") {
       read_face();
     } else if (word == "vn") {
@@ -65,10 +65,10 @@ class ObjReader {
   }
 
   void read_face() {
-    Fan fan(soup_);
+    Fan fan(mesh_);
     while (!cursor_.at_end()) {
-      const std::uint64_t vertex =
-          resolve(cursor_.leading_integer<std::int64_t>("vertex numbers"), soup_.positions.size());
+      const std::uint64_t vertex = resolve(cursor_.leading_integer<std::int64_t>("vertex numbers"),
+                                           mesh_.positions_f64.size());
       std::uint64_t normal = kNone;
       if (cursor_.take('/')) {
         if (!cursor_.word_ended() && !cursor_.take('/')) {
@@ -111,11 +111,11 @@ class ObjReader {
 
   /// Keeps which normal each vertex goes with, for as long as that is one for each.
   void note_normal(std::uint64_t vertex, std::uint64_t normal) {
-    if (!one_normal_each_ || vertex >= soup_.positions.size()) {
+    if (!one_normal_each_ || vertex >= mesh_.positions_f64.size()) {
       one_normal_each_ = false;
       return;
     }
-    normal_of_.resize(soup_.positions.size(), kNone);
+    normal_of_.resize(mesh_.positions_f64.size(), kNone);
     std::uint64_t& known = normal_of_[vertex];
     one_normal_each_ = normal != kNone && (known == kNone || known == normal);
     known = normal;
@@ -127,19 +127,19 @@ class ObjReader {
                     "a face names a normal that is none of the " + std::to_string(normals_.size()) +
                         " in the file");
     }
-    if (!one_normal_each_ || normal_of_.size() < soup_.positions.size() ||
+    if (!one_normal_each_ || normal_of_.size() < mesh_.positions_f64.size() ||
         std::ranges::find(normal_of_, kNone) != normal_of_.end()) {
       return;
     }
-    soup_.normals.reserve(normal_of_.size());
+    mesh_.normals.reserve(normal_of_.size());
     for (const std::uint64_t normal : normal_of_) {
-      soup_.normals.push_back(normals_[normal]);
+      mesh_.normals.push_back(normals_[normal]);
     }
   }
 
   const MeshInput& input_;
   TextCursor cursor_;
-  MeshSoup soup_;
+  Mesh mesh_;
   std::vector<std::array<float, 3>> normals_;
   std::vector<std::uint64_t> normal_of_;  // of each vertex; short of those not yet named
   bool one_normal_each_ = true;
@@ -149,6 +149,6 @@ class ObjReader {
 
 }  // namespace
 
-MeshSoup read_obj(const MeshInput& input) { return ObjReader(input).read(); }
+Mesh read_obj(const MeshInput& input) { return ObjReader(input).read(); }
 
 }  // namespace mc::source

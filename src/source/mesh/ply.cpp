@@ -138,6 +138,13 @@ std::size_t slot_of(const PlyProperty& property) {
   return property.count ? kNowhere : static_cast<std::size_t>(found - kVertexNames.begin());
 }
 
+/// Whether x, y and z are all single precision.
+bool has_single_positions(const PlyElement& vertex) {
+  return std::ranges::all_of(vertex.properties, [](const PlyProperty& property) {
+    return slot_of(property) > 2 || property.type == PlyType::f32;
+  });
+}
+
 bool is_face_list(const PlyProperty& property) {
   return property.count && !is_real(property.type) &&
          (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -148,7 +155,7 @@ class BodyReader {
  public:
   BodyReader(const MeshInput& input, const PlyHeader& header) : body_(input, header) {}
 
-  MeshSoup read(const PlyHeader& header) {
+  Mesh read(const PlyHeader& header) {
     for (const PlyElement& element : header.elements) {
       expect_room(element);
       if (element.name == "vertex") {
@@ -160,7 +167,7 @@ class BodyReader {
       }
     }
     body_.finish();
-    return std::move(soup_);
+    return std::move(mesh_);
   }
 
  private:
@@ -193,8 +200,18 @@ class BodyReader {
       return;
     }
     const bool normals = has[3] && has[4] && has[5];
-    soup_.positions.reserve(element.n);
-    soup_.normals.reserve(normals ? element.n : 0);
+    mesh_.normals.reserve(normals ? element.n : 0);
+    if (has_single_positions(element)) {
+      read_vertices(element, slots, normals, mesh_.positions);
+    } else {
+      read_vertices(element, slots, normals, mesh_.positions_f64);
+    }
+  }
+
+  template <class T>
+  void read_vertices(const PlyElement& element, const std::vector<std::size_t>& slots, bool normals,
+                     Buffer<std::array<T, 3>>& positions) {
+    positions.reserve(element.n);
     std::array<double, kNowhere + 1> values{};
     for (std::uint64_t v = 0; v < element.n; ++v) {
       for (std::size_t p = 0; p < slots.size(); ++p) {
@@ -205,9 +222,10 @@ class BodyReader {
           values[slots[p]] = body_.real(property.type);
         }
       }
-      soup_.positions.push_back({values[0], values[1], values[2]});
+      positions.push_back(
+          {static_cast<T>(values[0]), static_cast<T>(values[1]), static_cast<T>(values[2])});
       if (normals) {
-        soup_.normals.push_back({static_cast<float>(values[3]), static_cast<float>(values[4]),
+        mesh_.normals.push_back({static_cast<float>(values[3]), static_cast<float>(values[4]),
                                  static_cast<float>(values[5])});
       }
     }
@@ -221,7 +239,7 @@ class BodyReader {
       }
       return;
     }
-    soup_.triangles.reserve(element.n);
+    mesh_.triangles.reserve(element.n);
     for (std::uint64_t f = 0; f < element.n; ++f) {
       for (const PlyProperty& property : element.properties) {
         if (&property == &*list) {
@@ -238,7 +256,7 @@ class BodyReader {
     if (n_corners < 3) {
       body_.fail("a face of " + std::to_string(n_corners) + " vertices: expected three or more");
     }
-    Fan fan(soup_);
+    Fan fan(mesh_);
     for (std::uint64_t c = 0; c < n_corners; ++c) {
       fan.add(body_.integer(property.type));
     }
@@ -261,12 +279,12 @@ class BodyReader {
   }
 
   Body body_;
-  MeshSoup soup_;
+  Mesh mesh_;
 };
 
 }  // namespace
 
-MeshSoup read_ply(const MeshInput& input) {
+Mesh read_ply(const MeshInput& input) {
   const PlyHeader header = read_ply_header(input);
   return header.text ? BodyReader<TextBody>(input, header).read(header)
                      : BodyReader<BinaryBody>(input, header).read(header);

@@ -38,7 +38,7 @@ bool starts_as_text(std::string_view text) {
 
 }  // namespace
 
-MeshSoup parse_mesh(const MeshInput& input, std::string_view extension) {
+Mesh parse_mesh(const MeshInput& input, std::string_view extension) {
   const std::string_view text = input.text();
   if (text.starts_with(kByteOrderMark)) {
     MeshInput rest = input;
@@ -77,7 +77,7 @@ MeshSoup parse_mesh(const MeshInput& input, std::string_view extension) {
 
 namespace mc {
 
-MeshSoup read_mesh(const std::string& path) {
+Mesh read_mesh(const std::string& path) {
   const source::MappedFile file(path);
   source::MeshInput input{.bytes = file.bytes(), .place = file.place(), .folder = {}};
   std::string extension;

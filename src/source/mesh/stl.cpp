@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <cctype>
+#include <span>
 #include <string>
 
 #include "mesh/position_index.hpp"
@@ -20,20 +21,21 @@ constexpr std::size_t kFacet = 50;   // normal, three corners, two bytes of attr
 /// Joins corners into vertices.
 class Welder {
  public:
-  explicit Welder(MeshSoup& soup) : soup_(soup) {}
+  explicit Welder(Mesh& mesh) : mesh_(mesh) {}
 
   std::uint64_t vertex(const std::array<float, 3>& p) {
-    const std::uint64_t id = soup_.positions.size();
-    soup_.positions.push_back({double{p[0]}, double{p[1]}, double{p[2]}});
-    const std::uint64_t first = index_.first(soup_.positions, id);
+    const std::uint64_t id = mesh_.positions.size();
+    mesh_.positions.push_back(p);
+    const std::uint64_t first =
+        index_.first(std::span<const std::array<float, 3>>(mesh_.positions), id);
     if (first != id) {
-      soup_.positions.pop_back();
+      mesh_.positions.pop_back();
     }
     return first;
   }
 
  private:
-  MeshSoup& soup_;
+  Mesh& mesh_;
   mesh::PositionIndex index_;
 };
 
@@ -64,7 +66,7 @@ std::array<float, 3> read_vector(TextCursor& cursor, std::string_view what) {
 }
 
 /// What follows the word "facet".
-void read_facet(TextCursor& cursor, Welder& welder, MeshSoup& soup) {
+void read_facet(TextCursor& cursor, Welder& welder, Mesh& mesh) {
   expect(cursor, "normal");
   read_vector(cursor, "three numbers of a normal");
   expect(cursor, "outer");
@@ -76,7 +78,7 @@ void read_facet(TextCursor& cursor, Welder& welder, MeshSoup& soup) {
   }
   expect(cursor, "endloop");
   expect(cursor, "endfacet");
-  soup.triangles.push_back(corners);
+  mesh.add_triangle(corners);
 }
 
 std::string stl_sizes(std::size_t n_bytes, std::uint64_t n_facets) {
@@ -91,7 +93,7 @@ bool has_stl_size(std::span<const std::byte> bytes) {
          bytes.size() == kHeader + kFacet * std::uint64_t{load<std::uint32_t>(&bytes[80])};
 }
 
-MeshSoup read_stl_binary(const MeshInput& input) {
+Mesh read_stl_binary(const MeshInput& input) {
   if (input.bytes.size() < kHeader) {
     throw Error(ErrorKind::input, input.place,
                 std::to_string(input.bytes.size()) +
@@ -102,10 +104,10 @@ MeshSoup read_stl_binary(const MeshInput& input) {
     throw Error(ErrorKind::input, input.place, stl_sizes(input.bytes.size(), n_facets),
                 "the file is truncated or damaged");
   }
-  MeshSoup soup;
-  soup.triangles.reserve(n_facets);
-  soup.positions.reserve(n_facets / 2 + 3);  // a closed mesh has about half as many vertices
-  Welder welder(soup);
+  Mesh mesh;
+  mesh.triangles.reserve(n_facets);
+  mesh.positions.reserve(n_facets / 2 + 3);  // a closed mesh has about half as many vertices
+  Welder welder(mesh);
   for (std::uint64_t f = 0; f < n_facets; ++f) {
     const std::byte* at = &input.bytes[kHeader + kFacet * f + 12];
     std::array<std::uint64_t, 3> corners{};
@@ -113,14 +115,14 @@ MeshSoup read_stl_binary(const MeshInput& input) {
       corner = welder.vertex({load<float>(at), load<float>(at + 4), load<float>(at + 8)});
       at += 12;
     }
-    soup.triangles.push_back(corners);
+    mesh.add_triangle(corners);
   }
-  return soup;
+  return mesh;
 }
 
-MeshSoup read_stl_ascii(const MeshInput& input) {
-  MeshSoup soup;
-  Welder welder(soup);
+Mesh read_stl_ascii(const MeshInput& input) {
+  Mesh mesh;
+  Welder welder(mesh);
   TextCursor cursor(input, TextCursor::Words::across_lines);
   while (!cursor.at_end()) {
     expect(cursor, "solid");
@@ -133,11 +135,11 @@ MeshSoup read_stl_ascii(const MeshInput& input) {
       if (!equal_without_case(word, "facet")) {
         cursor.fail("expected 'facet' or 'endsolid'");
       }
-      read_facet(cursor, welder, soup);
+      read_facet(cursor, welder, mesh);
     }
     cursor.skip_line();
   }
-  return soup;
+  return mesh;
 }
 
 }  // namespace mc::source

@@ -57,12 +57,11 @@ void serve_dense(const Words& words) {
   if (const std::string fault = cli::fault_of(volume, surface.mesh()); !fault.empty()) {
     throw std::runtime_error(fault);
   }
-  peer::serve(
-      [] {},
-      [&] {
-        surface.extract();
-        return peer::Counts{surface.mesh().positions.size(), surface.mesh().triangles.size()};
-      });
+  peer::serve([] {},
+              [&] {
+                surface.extract();
+                return peer::Counts{surface.mesh().n_vertices(), surface.mesh().n_triangles()};
+              });
 }
 
 void serve_sparse(const Words& words) {
@@ -73,15 +72,12 @@ void serve_sparse(const Words& words) {
   options.extract.normals = Normals::none;
   test::Collected out;
   test::CollectingSink sink(out);
-  peer::serve(
-      [&] {
-        out.mesh.positions.clear();
-        out.mesh.triangles.clear();
-      },
-      [&] {
-        const MeshTotals totals = run(source.reader, options, false, sink, silent_progress(), {});
-        return peer::Counts{totals.n_vertices, totals.n_triangles};
-      });
+  peer::serve([&] { out.mesh.clear(); },
+              [&] {
+                const MeshTotals totals =
+                    run(source.reader, options, false, sink, silent_progress(), {});
+                return peer::Counts{totals.n_vertices, totals.n_triangles};
+              });
 }
 
 }  // namespace

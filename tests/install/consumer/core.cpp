@@ -10,5 +10,5 @@ int main() {
   samples[13] = 1;
   const mc::Mesh mesh =
       mc::extract(mc::View3<const float>(samples.data(), {3, 3, 3}), {.iso = 0.5});
-  std::cout << mesh.positions.size() << " vertices, " << mesh.triangles.size() << " triangles\n";
+  std::cout << mesh.n_vertices() << " vertices, " << mesh.n_triangles() << " triangles\n";
 }

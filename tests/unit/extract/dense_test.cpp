@@ -235,10 +235,10 @@ TEST(DenseEngineFloat, DoublePrecisionRoundsToTheSingleOne) {
   const Collected single = collect(reader, o);
   o.precision = Precision::f64;
   const Collected twice = collect(reader, o);
-  ASSERT_EQ(twice.positions_f64.size(), single.mesh.positions.size());
-  for (std::size_t n = 0; n < twice.positions_f64.size(); ++n) {
+  ASSERT_EQ(twice.mesh.positions_f64.size(), single.mesh.positions.size());
+  for (std::size_t n = 0; n < twice.mesh.positions_f64.size(); ++n) {
     for (std::size_t a = 0; a < 3; ++a) {
-      EXPECT_EQ(static_cast<float>(twice.positions_f64[n][a]), single.mesh.positions[n][a]);
+      EXPECT_EQ(static_cast<float>(twice.mesh.positions_f64[n][a]), single.mesh.positions[n][a]);
     }
   }
   EXPECT_EQ(twice.mesh.normals, single.mesh.normals);

@@ -12,49 +12,50 @@
 namespace mc {
 namespace {
 
-MeshSoup tetrahedron() {
-  return {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
-          .normals = {},
-          .triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
+Mesh tetrahedron() {
+  Mesh mesh;
+  mesh.positions_f64 = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+  return mesh;
 }
 
 /// Side 2, corner v at the bits of v.
-MeshSoup cube() {
-  MeshSoup soup;
+Mesh cube() {
+  Mesh mesh;
   for (int v = 0; v < 8; ++v) {
-    soup.positions.push_back({2. * (v & 1), 2. * (v >> 1 & 1), 2. * (v >> 2)});
+    mesh.positions_f64.push_back({2. * (v & 1), 2. * (v >> 1 & 1), 2. * (v >> 2)});
   }
-  soup.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                     {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  return soup;
+  return mesh;
 }
 
 /// n x m quads, closed both ways round.
-MeshSoup torus(std::uint64_t n, std::uint64_t m) {
-  MeshSoup soup;
+Mesh torus(std::uint64_t n, std::uint64_t m) {
+  Mesh mesh;
   const auto id = [&](std::uint64_t i, std::uint64_t j) { return i % n * m + j % m; };
   for (std::uint64_t i = 0; i < n; ++i) {
     for (std::uint64_t j = 0; j < m; ++j) {
       const double a = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
       const double b = 2 * M_PI * static_cast<double>(j) / static_cast<double>(m);
       const double r = 3 + std::cos(b);
-      soup.positions.push_back({r * std::cos(a), r * std::sin(a), std::sin(b)});
-      soup.triangles.push_back({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
-      soup.triangles.push_back({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
+      mesh.positions_f64.push_back({r * std::cos(a), r * std::sin(a), std::sin(b)});
+      mesh.add_triangle({id(i, j), id(i + 1, j), id(i + 1, j + 1)});
+      mesh.add_triangle({id(i, j), id(i + 1, j + 1), id(i, j + 1)});
     }
   }
-  return soup;
+  return mesh;
 }
 
-void append(MeshSoup& soup, const MeshSoup& other, std::uint64_t n_first_shared) {
-  const std::uint64_t base = soup.positions.size() - n_first_shared;
-  for (std::size_t v = n_first_shared; v < other.positions.size(); ++v) {
-    const Vec3& p = other.positions[v];
-    soup.positions.push_back({-p[0], -p[1], p[2] + 10});
+void append(Mesh& mesh, const Mesh& other, std::uint64_t n_first_shared) {
+  const std::uint64_t base = mesh.positions_f64.size() - n_first_shared;
+  for (std::size_t v = n_first_shared; v < other.positions_f64.size(); ++v) {
+    const Vec3& p = other.positions_f64[v];
+    mesh.positions_f64.push_back({-p[0], -p[1], p[2] + 10});
   }
   for (const auto& t : other.triangles) {
     const auto id = [&](std::uint64_t v) { return v < n_first_shared ? v : base + v; };
-    soup.triangles.push_back({id(t[0]), id(t[1]), id(t[2])});
+    mesh.add_triangle({id(t[0]), id(t[1]), id(t[2])});
   }
 }
 
@@ -99,13 +100,13 @@ TEST(CheckMesh, CubeHasItsAreaAndVolume) {
 }
 
 TEST(CheckMesh, VolumeIsAccurateFarFromTheOrigin) {
-  MeshSoup soup = cube();
-  for (Vec3& p : soup.positions) {
+  Mesh mesh = cube();
+  for (Vec3& p : mesh.positions_f64) {
     for (double& x : p) {
       x += 1e12;
     }
   }
-  EXPECT_DOUBLE_EQ(check_mesh(soup).volume, 8);
+  EXPECT_DOUBLE_EQ(check_mesh(mesh).volume, 8);
 }
 
 TEST(CheckMesh, TorusHasEulerNumberZero) {
@@ -117,9 +118,9 @@ TEST(CheckMesh, TorusHasEulerNumberZero) {
 }
 
 TEST(CheckMesh, TwoTetrahedraAtOneVertexAreNotManifold) {
-  MeshSoup soup = tetrahedron();
-  append(soup, tetrahedron(), 1);
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  append(mesh, tetrahedron(), 1);
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.nonmanifold_vertices, 1U);
   EXPECT_EQ(r.nonmanifold_edges, 0U);
   EXPECT_EQ(r.components, 1U);
@@ -128,9 +129,9 @@ TEST(CheckMesh, TwoTetrahedraAtOneVertexAreNotManifold) {
 }
 
 TEST(CheckMesh, TwoTetrahedraAtOneEdgeAreNotManifold) {
-  MeshSoup soup = tetrahedron();
-  append(soup, tetrahedron(), 2);
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  append(mesh, tetrahedron(), 2);
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.nonmanifold_edges, 1U);
   EXPECT_EQ(r.nonmanifold_vertices, 0U);
   EXPECT_EQ(r.boundary_edges, 0U);
@@ -139,26 +140,25 @@ TEST(CheckMesh, TwoTetrahedraAtOneEdgeAreNotManifold) {
 }
 
 TEST(CheckMesh, TwoApartAreTwoComponents) {
-  MeshSoup soup = tetrahedron();
-  append(soup, tetrahedron(), 0);
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  append(mesh, tetrahedron(), 0);
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.components, 2U);
   EXPECT_EQ(r.euler, 4);
   EXPECT_FALSE(r.defective(true));
 }
 
 TEST(CheckMesh, MoebiusStripHasOneEdgeOfWrongOrientation) {
-  MeshSoup soup;
+  Mesh mesh;
   for (int i = 0; i < 5; ++i) {
     const double a = 2 * M_PI * i / 5;
-    soup.positions.push_back({std::cos(a), std::sin(a), 0.1 * i});
+    mesh.positions_f64.push_back({std::cos(a), std::sin(a), 0.1 * i});
   }
   for (std::uint64_t i = 0; i < 5; ++i) {
     const auto turned = [&](std::uint64_t a, std::uint64_t b) { return i % 2 == 0 ? a : b; };
-    soup.triangles.push_back(
-        {i, turned((i + 1) % 5, (i + 2) % 5), turned((i + 2) % 5, (i + 1) % 5)});
+    mesh.add_triangle({i, turned((i + 1) % 5, (i + 2) % 5), turned((i + 2) % 5, (i + 1) % 5)});
   }
-  const MeshReport r = check_mesh(soup);
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.euler, 0);
   EXPECT_EQ(r.boundary_edges, 5U);
   EXPECT_EQ(r.misoriented_edges, 1U);
@@ -166,36 +166,36 @@ TEST(CheckMesh, MoebiusStripHasOneEdgeOfWrongOrientation) {
 }
 
 TEST(CheckMesh, FlippedTriangleIsMisorientedOnThreeEdges) {
-  MeshSoup soup = cube();
-  std::swap(soup.triangles[3][0], soup.triangles[3][1]);
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = cube();
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.misoriented_edges, 3U);
   EXPECT_TRUE(r.closed());
   EXPECT_TRUE(r.defective(false));
 }
 
 TEST(CheckMesh, DuplicateTriangleInAnyOrder) {
-  MeshSoup soup = tetrahedron();
-  soup.triangles.push_back({3, 2, 1});
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  mesh.add_triangle({3, 2, 1});
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.duplicate, 1U);
   EXPECT_EQ(r.nonmanifold_edges, 3U);
   EXPECT_TRUE(r.defective(false));
 }
 
 TEST(CheckMesh, BoundaryIsADefectOnlyWhenAskedFor) {
-  MeshSoup soup = tetrahedron();
-  soup.triangles.pop_back();
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  mesh.triangles.pop_back();
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.boundary_edges, 3U);
   EXPECT_FALSE(r.defective(false));
   EXPECT_TRUE(r.defective(true));
 }
 
 TEST(CheckMesh, UnreferencedAndDuplicateVerticesAreNoDefect) {
-  MeshSoup soup = tetrahedron();
-  soup.positions.push_back({0, -0., 0});
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  mesh.positions_f64.push_back({0, -0., 0});
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.unreferenced_vertices, 1U);
   EXPECT_EQ(r.duplicate_vertices, 1U);
   EXPECT_EQ(r.euler, 2);
@@ -204,37 +204,41 @@ TEST(CheckMesh, UnreferencedAndDuplicateVerticesAreNoDefect) {
 }
 
 TEST(CheckMesh, OutOfRangeTakesNoPartInTopology) {
-  MeshSoup soup = tetrahedron();
-  soup.triangles.push_back({0, 1, 4});
-  soup.triangles.push_back({std::numeric_limits<std::uint64_t>::max(), 1, 2});
-  const MeshReport r = check_mesh(soup);
-  EXPECT_EQ(r.out_of_range, 2U);
+  Mesh mesh = tetrahedron();
+  mesh.add_triangle({0, 1, 4});
+  mesh.add_triangle({0, 1, 0xFFFFFFFF});
+  mesh.add_triangle({std::numeric_limits<std::uint64_t>::max(), 1, 2});
+  const MeshReport r = check_mesh(mesh);
+  EXPECT_EQ(r.out_of_range, 3U);
   EXPECT_EQ(r.euler, 2);
   EXPECT_TRUE(r.closed());
   EXPECT_TRUE(r.defective(false));
 }
 
 TEST(CheckMesh, NotFiniteCountsVertices) {
-  MeshSoup soup = tetrahedron();
-  soup.normals.assign(4, {0, 0, 1});
-  soup.positions[1][2] = std::numeric_limits<double>::quiet_NaN();
-  soup.normals[1][0] = std::numeric_limits<float>::infinity();
-  soup.normals[2][0] = std::numeric_limits<float>::infinity();
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  mesh.normals.assign(4, {0, 0, 1});
+  mesh.positions_f64[1][2] = std::numeric_limits<double>::quiet_NaN();
+  mesh.normals[1][0] = std::numeric_limits<float>::infinity();
+  mesh.normals[2][0] = std::numeric_limits<float>::infinity();
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.not_finite, 2U);
   EXPECT_DOUBLE_EQ(r.area, 0.5);  // of the one triangle without vertex 1
   EXPECT_EQ(r.bounds.hi, (Vec3{0, 1, 1}));
   EXPECT_TRUE(r.defective(false));
 }
 
-MeshSoup one_triangle(const Vec3& p, const Vec3& q, const Vec3& r) {
-  return {.positions = {p, q, r}, .normals = {}, .triangles = {{0, 1, 2}}};
+Mesh one_triangle(const Vec3& p, const Vec3& q, const Vec3& r) {
+  Mesh mesh;
+  mesh.positions_f64 = {p, q, r};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
 }
 
 TEST(CheckMesh, RepeatedVertexIsDegenerate) {
-  MeshSoup soup = tetrahedron();
-  soup.triangles.push_back({1, 1, 2});
-  const MeshReport r = check_mesh(soup);
+  Mesh mesh = tetrahedron();
+  mesh.add_triangle({1, 1, 2});
+  const MeshReport r = check_mesh(mesh);
   EXPECT_EQ(r.degenerate, 1U);
   EXPECT_EQ(r.euler, 2);
   EXPECT_TRUE(r.defective(false));
@@ -267,14 +271,45 @@ TEST(CheckMesh, EmptyIsSound) {
 }
 
 TEST(CheckMesh, FiguresDoNotDependOnThreads) {
-  const MeshSoup soup = torus(400, 150);
-  const MeshReport all = check_mesh(soup);
+  const Mesh mesh = torus(400, 150);
+  const MeshReport all = check_mesh(mesh);
   const base::ThreadLimit limit(1);
-  const MeshReport one = check_mesh(soup);
+  const MeshReport one = check_mesh(mesh);
   EXPECT_EQ(all.area, one.area);
   EXPECT_EQ(all.volume, one.volume);
   expect_same(all, one);
   EXPECT_FALSE(all.defective(true));
+}
+
+TEST(CheckMesh, EveryStoreGivesTheSameFigures) {
+  const Mesh wide = torus(40, 15);
+  Mesh narrow;
+  for (const Vec3& p : wide.positions_f64) {
+    narrow.positions.push_back(
+        {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])});
+  }
+  narrow.triangles = wide.triangles;
+  Mesh mesh = narrow;
+  const MeshReport want = check_mesh(narrow);
+  for (const int store : {0, 1}) {
+    SCOPED_TRACE(store);
+    if (store == 0) {  // 64-bit ids
+      mesh.add_triangle({0, 0, std::uint64_t{1} << 32});
+      ASSERT_TRUE(mesh.triangles.empty());
+      mesh.triangles_u64.pop_back();
+    } else {  // doubles too
+      for (std::size_t v = 0; v < narrow.n_vertices(); ++v) {
+        mesh.positions_f64.push_back(narrow.position(v));
+      }
+      mesh.positions.clear();
+    }
+    EXPECT_EQ(mesh.n_vertices(), narrow.n_vertices());
+    EXPECT_EQ(mesh.n_triangles(), narrow.n_triangles());
+    const MeshReport got = check_mesh(mesh);
+    expect_same(got, want);
+    EXPECT_EQ(got.area, want.area);
+    EXPECT_EQ(got.volume, want.volume);
+  }
 }
 
 TEST(CheckMesh, AgreesWithTheOracleOnRandomSoups) {
@@ -282,20 +317,20 @@ TEST(CheckMesh, AgreesWithTheOracleOnRandomSoups) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     const auto below = [&](std::uint64_t n) { return random() % n; };
-    MeshSoup soup;
+    Mesh mesh;
     const std::uint64_t n_vertices = 1 + below(14);
     for (std::uint64_t v = 0; v < n_vertices; ++v) {
       const auto x = [&] { return static_cast<double>(below(4)) - 1; };
-      soup.positions.push_back({x(), x(), x()});
+      mesh.positions_f64.push_back({x(), x(), x()});
     }
     if (seed % 7 == 0) {
-      soup.positions[below(n_vertices)][1] = std::numeric_limits<double>::infinity();
+      mesh.positions_f64[below(n_vertices)][1] = std::numeric_limits<double>::infinity();
     }
     const std::uint64_t range = n_vertices + (seed % 3 == 0 ? 1 : 0);
     for (std::uint64_t t = below(30); t > 0; --t) {
-      soup.triangles.push_back({below(range), below(range), below(range)});
+      mesh.add_triangle({below(range), below(range), below(range)});
     }
-    expect_same(check_mesh(soup), test::MeshOracle(soup).report());
+    expect_same(check_mesh(mesh), test::MeshOracle(mesh).report());
   }
 }
 
@@ -303,14 +338,14 @@ TEST(CheckMesh, AgreesWithTheOracleOnDamagedTori) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    MeshSoup soup = torus(9, 6);
+    Mesh mesh = torus(9, 6);
     for (int n = 0; n < 4; ++n) {
-      std::swap(soup.triangles[random() % 100][random() % 3],
-                soup.triangles[random() % 100][random() % 3]);
-      soup.triangles.erase(soup.triangles.begin() + static_cast<std::ptrdiff_t>(random() % 100));
+      std::swap(mesh.triangles[random() % 100][random() % 3],
+                mesh.triangles[random() % 100][random() % 3]);
+      mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(random() % 100));
     }
-    soup.triangles.resize(soup.triangles.size() - random() % 5);
-    expect_same(check_mesh(soup), test::MeshOracle(soup).report());
+    mesh.triangles.resize(mesh.triangles.size() - random() % 5);
+    expect_same(check_mesh(mesh), test::MeshOracle(mesh).report());
   }
 }
 

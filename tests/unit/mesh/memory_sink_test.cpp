@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "base/simd_target.hpp"
@@ -63,6 +64,27 @@ TEST(MemorySink, PlacesInOrderWhateverTheOrderOfWriting) {
   EXPECT_EQ(mesh.positions, (Buffer<Triple>{{1, 1, 1}, {1, 1, 1}, {2, 2, 2}}));
   EXPECT_EQ(mesh.normals, (Buffer<Triple>{{-1, -1, -1}, {-1, -1, -1}, {-2, -2, -2}}));
   EXPECT_EQ(mesh.triangles, (Buffer<Ids>{{1, 1, 1}, {3, 3, 3}, {3, 3, 3}}));
+}
+
+TEST(MemorySink, StoresDoublesOnlyIfChunksHaveThem) {
+  Mesh mesh;
+  MemorySink sink;
+  for (const bool doubles : {true, false, true}) {
+    sink.start(mesh);
+    sink.begin_object({});
+    for (const float value : {1.0F, 2.0F}) {
+      MeshChunk chunk = chunk_of(2, 1, value);
+      if (doubles) chunk.positions_f64.assign(std::exchange(chunk.positions, {}).size(), value);
+      sink.put(chunk);
+    }
+    sink.end_object({});
+    sink.finish();
+    ASSERT_EQ(mesh.n_vertices(), 4U);
+    EXPECT_EQ(mesh.positions_f64.size(), doubles ? 4U : 0U);
+    EXPECT_EQ(mesh.position(1), (Vec3{1, 1, 1}));
+    EXPECT_EQ(mesh.position(2), (Vec3{2, 2, 2}));
+    EXPECT_EQ(mesh.normals.size(), 4U);
+  }
 }
 
 TEST(MemorySink, KeepsWhatIsWrittenWhenItMoves) {

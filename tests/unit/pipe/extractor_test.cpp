@@ -28,12 +28,14 @@ std::vector<float> waves(std::int32_t n) {
 
 void expect_same(const Mesh& a, const Mesh& b) {
   EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.positions_f64, b.positions_f64);
   EXPECT_EQ(a.normals, b.normals);
   EXPECT_EQ(a.triangles, b.triangles);
 }
 
 /// Allocations of one call, the mesh of which is like that of the calls before.
-std::uint64_t allocations_when_warm(std::int32_t n, int threads) {
+std::uint64_t allocations_when_warm(std::int32_t n, int threads,
+                                    Precision precision = Precision::f32) {
   const base::ThreadLimit limit(threads);
   const std::vector<float> samples = waves(n);
   const View3<const float> view(samples.data(), {n, n, n});
@@ -41,16 +43,17 @@ std::uint64_t allocations_when_warm(std::int32_t n, int threads) {
   Mesh mesh;
   // Which slot a slab gets is chance, where there are several threads; in the end all fit all.
   for (int round = 0; round < (threads == 1 ? 1 : 8); ++round) {
-    extractor.extract(view, {.iso = 0.1}, Affine{}, mesh);
+    extractor.extract(view, {.iso = 0.1, .precision = precision}, Affine{}, mesh);
   }
   const std::uint64_t before = test::n_allocations();
-  extractor.extract(view, {.iso = 0.1}, Affine{}, mesh);
+  extractor.extract(view, {.iso = 0.1, .precision = precision}, Affine{}, mesh);
   return test::n_allocations() - before;
 }
 
 TEST(Extractor, AllocatesNothingTheSecondTime) {
   EXPECT_EQ(allocations_when_warm(40, 1), 0U);
   EXPECT_EQ(allocations_when_warm(160, 1), 0U);  // several slabs
+  EXPECT_EQ(allocations_when_warm(160, 1, Precision::f64), 0U);
 }
 
 TEST(Extractor, AllocatesPerThreadNotPerSlab) {
@@ -79,6 +82,27 @@ TEST(Extractor, MayBeUsedForAnything) {
     extractor.extract(view, {.iso = 0.3}, Affine{}, mesh);
     expect_same(mesh, extract(view, {.iso = 0.3}));
   }
+}
+
+TEST(Extractor, PrecisionDecidesTheStore) {
+  const std::vector<float> samples = waves(20);
+  const View3<const float> view(samples.data(), {20, 20, 20});
+  const Affine far = Affine::scale_translate({1, 1, 1}, {1e9, 0, 0});
+  Extractor extractor;
+  Mesh mesh;
+  const Mesh single = extract(view, {.iso = 0.2});
+  ASSERT_GT(single.n_vertices(), 100U);
+  EXPECT_TRUE(single.positions_f64.empty());
+  extractor.extract(view, {.iso = 0.2, .precision = Precision::f64}, far, mesh);
+  ASSERT_TRUE(mesh.positions.empty());
+  ASSERT_EQ(mesh.n_vertices(), single.n_vertices());
+  EXPECT_EQ(mesh.triangles, single.triangles);
+  for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
+    ASSERT_NEAR(mesh.position(v)[0] - 1e9, single.position(v)[0], 1e-6);
+    ASSERT_EQ(static_cast<float>(mesh.position(v)[1]), single.positions[v][1]);
+  }
+  extractor.extract(view, {.iso = 0.2}, Affine{}, mesh);
+  expect_same(mesh, single);
 }
 
 TEST(Extractor, LooksAtTheArrayItIsGiven) {

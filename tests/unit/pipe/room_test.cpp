@@ -70,7 +70,7 @@ bool same_bytes(const Array& a, const Array& b) {
 
 void expect_same(const Collected& got, const Collected& want) {
   EXPECT_TRUE(same_bytes(got.mesh.positions, want.mesh.positions));
-  EXPECT_TRUE(same_bytes(got.positions_f64, want.positions_f64));
+  EXPECT_TRUE(same_bytes(got.mesh.positions_f64, want.mesh.positions_f64));
   EXPECT_TRUE(same_bytes(got.mesh.normals, want.mesh.normals));
   EXPECT_EQ(got.mesh.triangles, want.mesh.triangles);
   EXPECT_EQ(got.totals.n_vertices, want.totals.n_vertices);

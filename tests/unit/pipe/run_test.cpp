@@ -105,7 +105,7 @@ TEST(Run, GivesVerticesTheMaterialsOfTheirPlaceInTheLattice) {
     ASSERT_EQ(out.materials.size(), totals.n_vertices);
     EXPECT_EQ(totals.n_materials_held, totals.n_vertices / 40 * 19);  // j of 21 to 39
     for (std::size_t v = 0; v < out.materials.size(); ++v) {
-      const double y = exact ? out.positions_f64[v][1] : double{out.mesh.positions[v][1]};
+      const double y = exact ? out.mesh.positions_f64[v][1] : double{out.mesh.positions[v][1]};
       EXPECT_EQ(out.materials[v], (200 - (y + 8)) / 2);
     }
   }

@@ -13,7 +13,7 @@
 namespace mc {
 namespace {
 
-MeshSoup parse(std::string_view text) {
+Mesh parse(std::string_view text) {
   return source::parse_mesh(
       {.bytes = std::as_bytes(std::span(text.data(), text.size())), .place = "m", .folder = {}},
       "");
@@ -43,25 +43,35 @@ std::string with(std::string_view from, std::string_view to) {
 }
 
 TEST(ReadGltf, TransformsApplyDownTheTree) {
-  const MeshSoup soup = parse(with_nodes(
+  const Mesh mesh = parse(with_nodes(
       R"({"translation": [1e9, 0, 0.5], "children": [1]}, {"scale": [2, 3, 4], "mesh": 0})"));
-  EXPECT_EQ(soup.positions[0], (Vec3{1e9, 0, 0.5}));
-  EXPECT_EQ(soup.positions[1], (Vec3{1e9 + 2, 0, 0.5}));
-  EXPECT_EQ(soup.positions[3], (Vec3{1e9, 0, 4.5}));
+  EXPECT_EQ(mesh.position(0), (Vec3{1e9, 0, 0.5}));
+  EXPECT_EQ(mesh.position(1), (Vec3{1e9 + 2, 0, 0.5}));
+  EXPECT_EQ(mesh.position(3), (Vec3{1e9, 0, 4.5}));
 }
 
 TEST(ReadGltf, MatrixIsColumnByColumn) {
-  const MeshSoup soup =
+  const Mesh mesh =
       parse(with_nodes(R"({"mesh": 0, "matrix": [0,1,0,0, -1,0,0,0, 0,0,1,0, 5,6,7,1]})"));
-  EXPECT_EQ(soup.positions[1], (Vec3{5, 7, 7}));
-  EXPECT_EQ(soup.positions[2], (Vec3{4, 6, 7}));
+  EXPECT_EQ(mesh.position(1), (Vec3{5, 7, 7}));
+  EXPECT_EQ(mesh.position(2), (Vec3{4, 6, 7}));
 }
 
 TEST(ReadGltf, RotationIsAQuaternion) {
-  const MeshSoup soup = parse(
+  const Mesh mesh = parse(
       with_nodes(R"({"mesh": 0, "rotation": [0, 0, 0.7071067811865476, 0.7071067811865476]})"));
-  EXPECT_NEAR(soup.positions[1][0], 0, 1e-15);
-  EXPECT_NEAR(soup.positions[1][1], 1, 1e-15);
+  EXPECT_NEAR(mesh.position(1)[0], 0, 1e-15);
+  EXPECT_NEAR(mesh.position(1)[1], 1, 1e-15);
+}
+
+TEST(ReadGltf, PositionsAreDoubleOnlyWhereANodeMoves) {
+  EXPECT_EQ(parse(with_nodes(R"({"mesh": 0})")).positions.size(), 4U);
+  const Mesh mesh =
+      parse(with_nodes(R"({"mesh": 0, "children": [1]}, {"mesh": 0, "translation": [1e9, 0, 0]})"));
+  EXPECT_TRUE(mesh.positions.empty());
+  ASSERT_EQ(mesh.positions_f64.size(), 8U);
+  EXPECT_EQ(mesh.position(1), (Vec3{1, 0, 0}));
+  EXPECT_EQ(mesh.position(5), (Vec3{1e9 + 1, 0, 0}));
 }
 
 TEST(ReadGltf, MirroringTurnsTheWinding) {
@@ -71,9 +81,9 @@ TEST(ReadGltf, MirroringTurnsTheWinding) {
 }
 
 TEST(ReadGltf, OnlyTheSceneIsRead) {
-  EXPECT_EQ(parse(with_nodes(R"({"mesh": 0}, {"mesh": 0})")).triangles.size(), 4U);
-  EXPECT_EQ(parse(with_nodes(R"({"mesh": 0, "children": [1]}, {"mesh": 0})")).triangles.size(), 8U);
-  EXPECT_EQ(parse(with(R"("scenes": [{"nodes": [0]}],)", "")).triangles.size(), 4U);
+  EXPECT_EQ(parse(with_nodes(R"({"mesh": 0}, {"mesh": 0})")).n_triangles(), 4U);
+  EXPECT_EQ(parse(with_nodes(R"({"mesh": 0, "children": [1]}, {"mesh": 0})")).n_triangles(), 8U);
+  EXPECT_EQ(parse(with(R"("scenes": [{"nodes": [0]}],)", "")).n_triangles(), 4U);
 }
 
 TEST(ReadGltf, PrimitivesThatShareAccessorsShareVertices) {
@@ -85,15 +95,15 @@ TEST(ReadGltf, PrimitivesThatShareAccessorsShareVertices) {
 }
 
 TEST(ReadGltf, EmptyMeshIsRead) {
-  EXPECT_TRUE(parse(R"({"asset": {"version": "2.0"}})").positions.empty());
-  EXPECT_TRUE(parse("\xEF\xBB\xBF {\"asset\": {\"version\": \"2.0\"}}").positions.empty());
+  EXPECT_TRUE(parse(R"({"asset": {"version": "2.0"}})").n_vertices() == 0);
+  EXPECT_TRUE(parse("\xEF\xBB\xBF {\"asset\": {\"version\": \"2.0\"}}").n_vertices() == 0);
 }
 
 TEST(ReadGltf, AnIndexPastItsPrimitiveIsOutOfRange) {
-  const MeshSoup soup = parse(with(R"("count": 4,)", R"("count": 3,)"));
-  EXPECT_EQ(soup.positions.size(), 3U);
-  EXPECT_EQ(soup.triangles[1][2], std::numeric_limits<std::uint64_t>::max());
-  EXPECT_EQ(check_mesh(soup).out_of_range, 3U);
+  const Mesh mesh = parse(with(R"("count": 4,)", R"("count": 3,)"));
+  EXPECT_EQ(mesh.n_vertices(), 3U);
+  EXPECT_EQ(mesh.triangle(1)[2], std::numeric_limits<std::uint64_t>::max());
+  EXPECT_EQ(check_mesh(mesh).out_of_range, 3U);
 }
 
 TEST(ReadGltf, Faults) {
@@ -135,7 +145,7 @@ TEST(ReadGltf, RepetitionIsBounded) {
   for (int n = 1; n < 400; ++n) {
     nodes += R"(,{"mesh":0})";
   }
-  EXPECT_EQ(parse(with_nodes(nodes)).triangles.size(), 399U * 4);
+  EXPECT_EQ(parse(with_nodes(nodes)).n_triangles(), 399U * 4);
   std::string json = test::tetrahedron_gltf("", nodes);
   const std::string primitive = R"({"attributes": {"POSITION": 0}, "indices": 1})";
   std::string many = primitive;

@@ -14,10 +14,16 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint64_t, 3>>;
 
-MeshSoup parse(std::string_view text, std::string_view extension = "") {
+Mesh parse(std::string_view text, std::string_view extension = "") {
   return source::parse_mesh(
       {.bytes = std::as_bytes(std::span(text.data(), text.size())), .place = "m", .folder = {}},
       extension);
+}
+
+Triangles triangles_of(const Mesh& mesh) {
+  Triangles out;
+  for (std::size_t t = 0; t < mesh.n_triangles(); ++t) out.push_back(mesh.triangle(t));
+  return out;
 }
 
 std::string fault_of(std::string_view text, std::string_view extension = "") {
@@ -33,7 +39,7 @@ std::string fault_of(std::string_view text, std::string_view extension = "") {
 constexpr std::uint64_t kOutOfRange = std::numeric_limits<std::uint64_t>::max();
 
 TEST(ReadPly, AnyOrderNormalsPolygonsAndOtherElements) {
-  const MeshSoup soup = parse(
+  const Mesh mesh = parse(
       "ply\r\nformat ascii 1.0\r\nobj_info x\r\nelement edge 1\r\nproperty list char int8 a\r\n"
       "property float b\r\nelement vertex 4\r\nproperty uchar red\r\nproperty double nz\r\n"
       "property double z\r\nproperty list int int tags\r\nproperty float x\r\n"
@@ -41,31 +47,42 @@ TEST(ReadPly, AnyOrderNormalsPolygonsAndOtherElements) {
       "property uchar flag\r\nproperty list uint8 uint16 vertex_indices\r\nend_header\r\n"
       "2 7 7 0.5\r\n9 1 .5 0 1e0 0 0 0\r\n9 1 .5 1 4 0.1 0 0 0\r\n9 1 .5 0 +1 0 1 0\r\n"
       "9 1 .5 0 0 0 1 0\r\n1 4 0 1 2 3\r\n");
-  EXPECT_EQ(soup.positions[1], (Vec3{double{0.1F}, 0, 0.5}));
-  EXPECT_EQ(soup.normals[2], (std::array<float, 3>{0, 0, 1}));
-  EXPECT_EQ(soup.triangles, (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(mesh.position(1), (Vec3{double{0.1F}, 0, 0.5}));
+  EXPECT_EQ(mesh.normals[2], (std::array<float, 3>{0, 0, 1}));
+  EXPECT_EQ(triangles_of(mesh), (Triangles{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(ReadPly, BothByteOrdersAreEqual) {
-  const MeshSoup little = parse(test::tetrahedron_ply_binary(false));
-  const MeshSoup big = parse(test::tetrahedron_ply_binary(true));
-  EXPECT_EQ(little.positions, test::tetrahedron().positions);
-  EXPECT_EQ(little.positions, big.positions);
+  const Mesh little = parse(test::tetrahedron_ply_binary(false));
+  const Mesh big = parse(test::tetrahedron_ply_binary(true));
+  EXPECT_EQ(little.positions_f64, test::tetrahedron().positions_f64);
+  EXPECT_EQ(little.positions_f64, big.positions_f64);
   EXPECT_EQ(little.triangles, big.triangles);
 }
 
+TEST(ReadPly, PositionsAreStoredInTheFilesPrecision) {
+  const Mesh single = parse(test::tetrahedron_ply_text());
+  EXPECT_EQ(single.positions.size(), 4U);
+  EXPECT_TRUE(single.positions_f64.empty());
+  EXPECT_EQ(single.position(3), (Vec3{0, 0, 1}));
+  const Mesh mixed = parse(test::tetrahedron_ply_binary(false));
+  EXPECT_TRUE(mixed.positions.empty());
+  EXPECT_EQ(mixed.positions_f64.size(), 4U);
+}
+
 TEST(ReadPly, EmptyMeshIsRead) {
-  EXPECT_TRUE(parse("ply\nformat ascii 1.0\nelement vertex 0\nelement face 0\nend_header\n")
-                  .positions.empty());
+  EXPECT_TRUE(
+      parse("ply\nformat ascii 1.0\nelement vertex 0\nelement face 0\nend_header\n").n_vertices() ==
+      0);
 }
 
 TEST(ReadPly, NegativeIndexIsLeftToTheCheck) {
-  const MeshSoup soup = parse(
+  const Mesh mesh = parse(
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
       "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n"
       "nan -inf 0\n3 0 -1 7\n");
-  EXPECT_EQ(soup.triangles, (Triangles{{0, kOutOfRange, 7}}));
-  EXPECT_TRUE(std::isnan(soup.positions[0][0]));
+  EXPECT_EQ(triangles_of(mesh), (Triangles{{0, kOutOfRange, 7}}));
+  EXPECT_TRUE(std::isnan(mesh.position(0)[0]));
 }
 
 TEST(ReadPly, NamesThePlaceOfAFault) {
@@ -102,31 +119,31 @@ TEST(ReadPly, CountsAreHeldAgainstTheFile) {
 }
 
 TEST(ReadObj, AllFormsOfAFace) {
-  const MeshSoup soup = parse(
+  const Mesh mesh = parse(
       "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv 0 1 0 # last\nvt 0 0\nvn 0 0 1\n"
       "f 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf -3/1/1 -2/-1/-1 \\\n -1/1/1\n");
-  EXPECT_EQ(soup.triangles, Triangles(4, {0, 1, 2}));
-  EXPECT_TRUE(soup.normals.empty());  // not every corner names one
+  EXPECT_EQ(triangles_of(mesh), Triangles(4, {0, 1, 2}));
+  EXPECT_TRUE(mesh.normals.empty());  // not every corner names one
 }
 
 TEST(ReadObj, NormalsAreAttachedWhereEachVertexHasOne) {
   const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvn 0 0 1\nvn 0 1 0\n";
-  const MeshSoup soup = parse(head + "f 1//1 2//2 3//1\nf 2//2 4//2 3//1\n");
-  ASSERT_EQ(soup.normals.size(), 4U);
-  EXPECT_EQ(soup.normals[1], (std::array<float, 3>{0, 1, 0}));
-  EXPECT_EQ(soup.normals[2], (std::array<float, 3>{0, 0, 1}));
+  const Mesh mesh = parse(head + "f 1//1 2//2 3//1\nf 2//2 4//2 3//1\n");
+  ASSERT_EQ(mesh.normals.size(), 4U);
+  EXPECT_EQ(mesh.normals[1], (std::array<float, 3>{0, 1, 0}));
+  EXPECT_EQ(mesh.normals[2], (std::array<float, 3>{0, 0, 1}));
   EXPECT_TRUE(parse(head + "f 1//1 2//2 3//1\nf 2//1 4//2 3//1\n").normals.empty());
   EXPECT_TRUE(parse(head + "f 1//1 2//2 3//1\n").normals.empty());
 }
 
 TEST(ReadObj, PolygonsAreFannedAndBadNumbersKept) {
-  EXPECT_EQ(parse("v 0 0 0\nf 1 2 3 4 5\nf 0 -1 -2\n").triangles,
+  EXPECT_EQ(triangles_of(parse("v 0 0 0\nf 1 2 3 4 5\nf 0 -1 -2\n")),
             (Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {kOutOfRange, 0, kOutOfRange}}));
 }
 
 TEST(ReadObj, EmptyMeshIsRead) {
-  EXPECT_TRUE(parse("# nothing\n").triangles.empty());
-  EXPECT_TRUE(parse("\xEF\xBB\xBFo nothing").triangles.empty());
+  EXPECT_TRUE(parse("# nothing\n").n_triangles() == 0);
+  EXPECT_TRUE(parse("\xEF\xBB\xBFo nothing").n_triangles() == 0);
 }
 
 TEST(ReadObj, NamesTheLineOfAFault) {
@@ -144,20 +161,20 @@ TEST(ReadObj, NamesTheLineOfAFault) {
 }
 
 TEST(ReadStl, CornersAreWeldedByExactPosition) {
-  EXPECT_EQ(parse(test::tetrahedron_stl_text()).positions.size(), 4U);
-  EXPECT_EQ(parse(test::tetrahedron_stl_binary()).positions.size(), 4U);
-  EXPECT_EQ(parse("solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex -0 0 0 "
-                  "vertex 0 1.00000001 0 endloop endfacet\nFACET NORMAL 0 0 1 OUTER LOOP "
-                  "VERTEX 0 1 0 VERTEX 1e-45 0 0 VERTEX 0 0 0 ENDLOOP ENDFACET\nendsolid")
-                .triangles,
-            (Triangles{{0, 0, 1}, {1, 2, 0}}));
+  EXPECT_EQ(parse(test::tetrahedron_stl_text()).n_vertices(), 4U);
+  EXPECT_EQ(parse(test::tetrahedron_stl_binary()).n_vertices(), 4U);
+  EXPECT_EQ(
+      triangles_of(parse("solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex -0 0 0 "
+                         "vertex 0 1.00000001 0 endloop endfacet\nFACET NORMAL 0 0 1 OUTER LOOP "
+                         "VERTEX 0 1 0 VERTEX 1e-45 0 0 VERTEX 0 0 0 ENDLOOP ENDFACET\nendsolid")),
+      (Triangles{{0, 0, 1}, {1, 2, 0}}));
 }
 
 TEST(ReadStl, SeveralSolidsAndNoneAtAll) {
   const std::string text = test::tetrahedron_stl_text();
-  EXPECT_EQ(parse(text + "\n" + text).triangles.size(), 8U);
-  EXPECT_TRUE(parse("solid nothing\nendsolid nothing\n").triangles.empty());
-  EXPECT_TRUE(parse(std::string(84, '\0')).triangles.empty());
+  EXPECT_EQ(parse(text + "\n" + text).n_triangles(), 8U);
+  EXPECT_TRUE(parse("solid nothing\nendsolid nothing\n").n_triangles() == 0);
+  EXPECT_TRUE(parse(std::string(84, '\0')).n_triangles() == 0);
 }
 
 TEST(ReadStl, NamesThePlaceOfAFault) {
