@@ -3,13 +3,12 @@
 #include <cassert>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "extract/bits/threshold.hpp"
 #include "mc/method.hpp"
 #include "mesh/chunk_room.hpp"
+#include "pipe/dense_planes.hpp"
 #include "pipe/tasks.hpp"
 
 // Dense volumes: a task is a slab of cell layers; its pieces are bands of rows, layer by layer.
@@ -27,32 +26,18 @@ constexpr std::int32_t kMaxLayers = 64;  // more would leave threads idle at the
 constexpr std::int32_t kDearLayers = 61;  // 64 planes
 constexpr std::uint64_t kDearSlabBytes = 64U << 20U;
 constexpr int kTasksAThread = 4;
-/// Planes of a slab beside one for each of its layers, at least: those of cubes with gradients.
-constexpr std::int32_t kMinSharedPlanes = 3;
 
 class DenseTasks final : public TaskList {
  public:
   DenseTasks(const PlaneInput& input, const RunOptions& options)
-      : input_(input),
+      : planes_(input, options),
         method_(method_of(options.extract)),
         extract_(options.extract),
         to_world_(options.to_world.value_or(input.volume().lattice.to_world)),
         engine_(new_engine()),
         range_(chosen_layers(options.extract, {0, engine_->n_layers()})),
-        given_layers_(options.slab_layers) {
-    const Volume& volume = input.volume();
-    const IndexBox box = options.extract.region.value_or(volume.lattice.box);
-    plane_samples_ = static_cast<std::uint64_t>(box.extent(0) * box.extent(1));
-    if (options.skip) {
-      query_ = {extraction::effective_iso(volume.type, options.extract.iso), box,
-                options.extract.border != Border::open};
-    }
-    plane_bytes_ = static_cast<std::uint64_t>(volume.lattice.box.extent(0)) *
-                   static_cast<std::uint64_t>(volume.lattice.box.extent(1)) *
-                   sample_size(volume.type);
-    const std::int32_t middle = engine_->n_layers() / 2;
-    const auto [k0, k1] = engine_->planes_for(middle, middle + 1);
-    shared_planes_ = std::max(kMinSharedPlanes, k1 - k0 - 1);
+        given_layers_(options.slab_layers),
+        shared_planes_(shared_planes(*engine_)) {
     fit(base::pipeline_slots(), std::numeric_limits<std::uint64_t>::max());
   }
 
@@ -81,14 +66,14 @@ class DenseTasks final : public TaskList {
     return static_cast<std::size_t>((range_.last - range_.first + layers_ - 1) / layers_);
   }
   [[nodiscard]] std::uint64_t samples(std::size_t n) const override {
-    return plane_samples_ * static_cast<std::uint64_t>(last(n) - first(n));
+    return planes_.n_samples * static_cast<std::uint64_t>(last(n) - first(n));
   }
   void fetch(std::size_t n, std::size_t slot) override {
-    if (input_.single_pass()) read(n, slots_[slot]);
+    if (planes_.input.single_pass()) read(n, slots_[slot]);
   }
   void make(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];
-    if (!input_.single_pass()) read(n, s);
+    if (!planes_.input.single_pass()) read(n, s);
     const std::int32_t end =
         s.engine->extract(s.slab, first(n), last(n), room_.chunk_bytes, out.chunk, out.totals);
     out.complete = end == last(n);
@@ -98,7 +83,7 @@ class DenseTasks final : public TaskList {
       out.totals.n_vertices +=
           s.engine->count_vertices(s.slab, s.rest.first, s.rest.last, s.rest.with_lowest);
     }
-    out.totals.n_asked = plane_samples_ * s.slab.planes.size();
+    out.totals.n_asked = planes_.n_samples * s.slab.planes.size();
     out.totals.n_skipped = s.slab.sides.n_left_out();
   }
   std::size_t next_pieces(std::size_t slot) override {
@@ -120,18 +105,18 @@ class DenseTasks final : public TaskList {
   }
   [[nodiscard]] std::uint64_t held_bytes(std::size_t n_slots, std::size_t n_makers) const override {
     const std::uint64_t slab =
-        input_.rereads_cheaply()
+        planes_.input.rereads_cheaply()
             ? 0
-            : plane_bytes_ * static_cast<std::uint64_t>(layers_ + shared_planes_);
+            : planes_.plane_bytes * static_cast<std::uint64_t>(layers_ + shared_planes_);
     return n_slots * (engine_->scratch_bytes() + slab) + engine_->bands_bytes(n_makers);
   }
-  [[nodiscard]] std::uint64_t input_bytes() const override { return input_.held_bytes(); }
+  [[nodiscard]] std::uint64_t input_bytes() const override { return planes_.input.held_bytes(); }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
     return engine_->least_chunk_bytes();
   }
   [[nodiscard]] std::uint64_t smooth_content_bytes() const override {
     // A flat surface through the slab: about a vertex and two triangles a column.
-    return mesh::content_bytes(plane_samples_, 2 * plane_samples_, vertex_bytes());
+    return mesh::content_bytes(planes_.n_samples, 2 * planes_.n_samples, vertex_bytes());
   }
   [[nodiscard]] std::uint64_t most_content_bytes() const override {
     return engine_->max_mesh_bytes(layers_);
@@ -151,7 +136,7 @@ class DenseTasks final : public TaskList {
   };
 
   [[nodiscard]] std::unique_ptr<SlabEngine> new_engine() const {
-    return method_.dense(input_.volume(), to_world_, extract_);
+    return method_.dense(planes_.input.volume(), to_world_, extract_);
   }
   [[nodiscard]] std::uint64_t vertex_bytes() const {
     return mesh::vertex_bytes(extract_.precision, extract_.normals != Normals::none);
@@ -168,38 +153,35 @@ class DenseTasks final : public TaskList {
       return static_cast<std::int32_t>(
           std::clamp<std::uint64_t>(v, std::uint64_t(lo), std::uint64_t(hi)));
     };
-    const std::int32_t cached = within(kSlabSamples / plane_samples_, kMinLayers, kMaxLayers);
-    if (input_.rereads_cheaply()) return cached;
-    const std::int32_t planes = within(bytes / plane_bytes_, 0, kMaxLayers + shared_planes_);
+    const std::int32_t cached = within(kSlabSamples / planes_.n_samples, kMinLayers, kMaxLayers);
+    if (planes_.input.rereads_cheaply()) return cached;
+    const std::int32_t planes = within(bytes / planes_.plane_bytes, 0, kMaxLayers + shared_planes_);
     const std::int32_t most = std::max(planes - shared_planes_, 1);
-    if (input_.single_pass()) return std::min(cached, most);
+    if (planes_.input.single_pass()) return std::min(cached, most);
     const auto n_parts =
         std::uint64_t{kTasksAThread} * static_cast<std::uint64_t>(base::thread_count());
     const auto share = static_cast<std::uint64_t>(range_.last - range_.first) / n_parts;
     const std::int32_t dear =
-        within(std::min(kDearSlabBytes / plane_bytes_, share), kMinLayers, kDearLayers);
+        within(std::min(kDearSlabBytes / planes_.plane_bytes, share), kMinLayers, kDearLayers);
     return std::min(std::max(cached, dear), most);
   }
   void read(std::size_t n, Slot& s) const {
     const auto [k0, k1] = engine_->planes_for(first(n), last(n));
-    input_.read(k0, k1, query_, s.slab);
+    planes_.read(k0, k1, s.slab);
   }
 
-  PlaneInput input_;
+  DensePlanes planes_;
   const Method& method_;
   ExtractOptions extract_;
   Affine to_world_;
   std::unique_ptr<SlabEngine> engine_;  ///< answers for all, and keeps what slots share
   LayerRange range_;
   std::int32_t given_layers_;
+  std::int32_t shared_planes_;
   Room room_;
   std::vector<Slot> slots_;
-  std::unique_ptr<SlabBands> bands_;   ///< made when first needed
-  std::optional<SurfaceQuery> query_;  ///< unset: all samples are read
+  std::unique_ptr<SlabBands> bands_;  ///< made when first needed
   std::int32_t layers_ = 1;
-  std::int32_t shared_planes_ = kMinSharedPlanes;
-  std::uint64_t plane_samples_ = 0;
-  std::uint64_t plane_bytes_ = 0;
 };
 
 }  // namespace
