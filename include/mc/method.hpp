@@ -134,7 +134,7 @@ class BlockWorker {
   /// Errors   limit: a triangle spans more than 2^32 vertex ids.
   virtual std::size_t extract(std::size_t first, std::size_t last, std::uint64_t max_bytes,
                               MeshChunk& chunk, SurfaceTotals& totals) = 0;
-  /// Counts the vertices and triangles of blocks [first, last).
+  /// Counts vertices, triangles and boundary edges of blocks [first, last).
   virtual void count(std::size_t first, std::size_t last, SurfaceTotals& totals) = 0;
 };
 
@@ -146,6 +146,8 @@ class BlockEngine {
  public:
   virtual ~BlockEngine() = default;
   [[nodiscard]] virtual std::size_t n_blocks() const = 0;
+  /// The layer of block n: its index along k.
+  [[nodiscard]] virtual std::int32_t layer(std::size_t n) const = 0;
   /// The id of the first vertex of block n, or for n = n_blocks() the number of all.
   [[nodiscard]] virtual std::uint64_t first_vertex(std::size_t n) const = 0;
   /// Creates what makes blocks on one thread. Keeps a reference to the engine.

@@ -98,6 +98,11 @@ std::uint64_t SparseExtractor::boundary_edges(const Index3& block, const BlockBi
                                               const Mask512& cells) const {
   const IndexBox& box = plan_.box();
   const Index3 o = origin_of(block);
+  bool at_border = false;
+  for (std::size_t a = 0; a < 3; ++a) {
+    at_border = at_border || o[a] <= box.lo[a] || o[a] + field::kBlockSize >= box.hi[a];
+  }
+  if (!at_border) return 0;
   const auto bit = [&](const Index3& p) {
     const std::int32_t n = (p[0] >> 3) + 2 * (p[1] >> 3) + 4 * (p[2] >> 3);
     return std::uint64_t{test(*above[static_cast<std::size_t>(n)], bit_index(p))};
@@ -256,7 +261,11 @@ void SparseExtractor::count(std::size_t first, std::size_t last, SurfaceTotals& 
     walk.move_to(n);
     const BlockBits above = plan_.bits_around(walk, 0, 0, 0);
     const BlockBits* exists = plan_.samples_around(plan_.blocks()[n].at, samples);
-    totals.n_triangles += count_block_triangles(above, find_cells(above, exists));
+    const Mask512 cells = find_cells(above, exists);
+    totals.n_triangles += count_block_triangles(above, cells);
+    if (plan_.options().region && !plan_.capped()) {
+      totals.n_boundary_edges += boundary_edges(plan_.blocks()[n].at, above, cells);
+    }
   }
 }
 

@@ -87,6 +87,7 @@ class SparseEngine final : public BlockEngine {
       : plan_(reader, options), to_world_(to_world) {}
 
   [[nodiscard]] std::size_t n_blocks() const override { return plan_.n_own(); }
+  [[nodiscard]] std::int32_t layer(std::size_t n) const override { return plan_.blocks()[n].at[2]; }
   [[nodiscard]] std::uint64_t first_vertex(std::size_t n) const override {
     return plan_.first_vertex(n);
   }
