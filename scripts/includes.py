@@ -22,13 +22,14 @@ ROOMS = {
     "edit": "base field graph",
     "mesh": "base",
     "extract": "base field mesh",
-    "pipe": "base field edit extract mesh",
+    "process": "base field mesh",
+    "pipe": "base field edit extract mesh process",
     "source": "base field graph edit mesh",
     "sink": "base field mesh",
-    "convert": "base field graph edit mesh extract pipe source sink",
-    "cli": "base field graph edit mesh extract pipe source sink convert",
+    "convert": "base field graph edit mesh extract process pipe source sink",
+    "cli": "base field graph edit mesh extract process pipe source sink convert",
 }
-CORE = {"base", "field", "graph", "edit", "mesh", "extract", "pipe"}
+CORE = {"base", "field", "graph", "edit", "mesh", "extract", "process", "pipe"}
 
 # Folder of a room that keeps a law of its own: folders of the room that it may include, besides
 # itself.

@@ -17,6 +17,7 @@
 #include "mc/field.hpp"
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
+#include "mc/process.hpp"
 #include "mc/sink.hpp"
 #include "mc/source.hpp"
 
@@ -115,6 +116,7 @@ struct ConvertOptions {
   /// Region, interpolation, minimum edge and whether to measure; the run itself decides iso,
   /// inside, border, normals, precision and origin.
   ExtractOptions extract{};
+  MeshStages stages{};               ///< applied to the mesh before it is written, in order
   std::optional<Normals> normals{};  ///< unset: gradient where the format holds normals, else none
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< the process's budget
   bool allow_empty = false;                              ///< a mesh without triangles is a success

@@ -12,6 +12,7 @@
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
 #include "mc/mesh.hpp"
+#include "mc/process.hpp"
 
 // Drives a volume through the engine: into a sink, slab by slab, or in chunks, of which only those
 // that an edit reaches are made again.
@@ -44,6 +45,7 @@ struct RunOptions {
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
   CountFirst count_first = CountFirst::no;  ///< ignored for streams, which are read once
   const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
+  MeshStages stages{};  ///< applied to the mesh on its way to the sink, in order
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
   std::function<void(const MemoryNeed&)> tell_need;  ///< called before the work; or empty
@@ -56,7 +58,8 @@ struct RunOptions {
 LayerRange part_layers(const VolumeReader& reader, const RunOptions& options);
 
 /// What a run needs; of a dense volume the surface is taken to be smooth, as large as one across
-/// it. Errors   limit: options.memory_bytes are less than the least.
+/// it. With stages that reach beyond a chunk, counts the surface of all but streams by a pass over
+/// all samples. Errors   limit: options.memory_bytes are less than the least.
 MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options);
 
 /// What a run needs, with the surface counted by a pass over all samples. `streamed`: the run will
@@ -66,12 +69,18 @@ MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
                           const std::stop_token& stop, bool streamed = false);
 
 /// Refuses, before anything is read, a dense run that cannot keep its budget. What a sparse run
-/// needs shows when it is planned, in run(). Errors   limit.
+/// needs shows when it is planned, in run(), and what windows of stages need when the surface has
+/// been counted. Errors   limit.
 void check_memory(const VolumeReader& reader, const RunOptions& options);
 
 /// Extracts one iso of `reader` into `sink`: begin_object, chunks in order, end_object.
 /// The sink is not touched until the first triangle exists; `allow_empty` hands it an empty object.
-/// Errors   empty: no surface (unless allow_empty); limit: memory; those of reader and sink.
+/// Stages   figures are those of the mesh that they leave. If no stage reaches beyond a chunk and
+///          one moves vertices, area and volume stay unset: the vertices of a triangle may lie in
+///          several chunks. If a stage changes counts, the sink learns them at the end, or with
+///          CountFirst::yes from a pass that makes the mesh and applies the stages.
+/// Errors   empty: no surface (unless allow_empty); limit: memory; those of reader and sink; usage:
+///          a stream with stages that reach beyond a chunk.
 /// Threads  uses the caller's arena; what the sink receives does not depend on the thread count or
 ///          slab thickness but for where chunks are cut.
 /// Part     of options.extract.part: counts are of the vertices that the part owns; area and volume

@@ -36,7 +36,9 @@ bool keeps_far_positions(const SinkFormat& format) {
 }
 
 /// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
-CountFirst counting_of(const VolumeReader& reader) {
+/// Where stages change counts, counting makes the mesh, which costs more than spooling it.
+CountFirst counting_of(const VolumeReader& reader, const process::StageList& stages) {
+  if (stages.change_counts()) return CountFirst::no;
   if (!is_dense(reader)) return CountFirst::yes;
   const auto* slabs = std::get_if<std::unique_ptr<SlabReader>>(&reader);
   return slabs != nullptr && (*slabs)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
@@ -48,6 +50,7 @@ MeshRun::MeshRun(const std::string& output, const ConvertOptions& options, Progr
                  const std::stop_token& stop, ConvertReport& report)
     : output_(output),
       options_(options),
+      stages_(options.stages),
       format_(output_format(output, options.sink)),
       progress_(progress),
       stop_(stop),
@@ -124,11 +127,12 @@ FieldStatistics MeshRun::measure(std::span<const double> percentiles) {
   return statistics;
 }
 
-/// One pass is enough for one iso that is known, over all planes; else a stream is copied first.
+/// One pass is enough for one iso that is known, over all planes, with stages that need no halo;
+/// else a stream is copied first.
 void MeshRun::spool_if_read_again() {
   if (!opened_ || !is_stream(opened_->reader)) return;
   const std::vector<IsoChoice>& isos = options_.surface.isos;
-  const bool again = isos.size() > 1 || options_.extract.region;
+  const bool again = isos.size() > 1 || options_.extract.region || stages_.need_windows();
   if (iso_needs_data(isos, volume()) || (again && !options_.dry_run)) {
     timed("spool", [&] { spool_stream(opened_->reader, progress_); });
   }
@@ -168,7 +172,8 @@ RunOptions MeshRun::run_options(double iso) const {
                             : fmt::format("iso {}", value_text(iso, volume().type));
   options.materials = materials();
   options.memory_bytes = options_.memory_bytes;
-  options.count_first = counting_of(reader());
+  options.count_first = counting_of(reader(), stages_);
+  options.stages = options_.stages;
   options.skip = options_.skip;
   options.formatted = needs_.formatted;
   options.to_world = to_world;
@@ -209,13 +214,14 @@ MeshTotals MeshRun::run_one(double iso, MeshSink& sink) {
   try {
     return mc::run(reader(), options, options_.allow_empty, sink, progress_, stop_);
   } catch (const Error& e) {
-    if (e.kind() != ErrorKind::empty) throw;
+    if (e.kind() != ErrorKind::empty || stages_.change_counts()) throw;
   }
   refuse_empty(iso);
 }
 
 void MeshRun::report_totals(const MeshTotals& totals) const {
-  if (surface_.border == Border::open && !options_.surface.border && totals.n_boundary_edges != 0) {
+  if (surface_.border == Border::open && !options_.surface.border && totals.n_boundary_edges != 0 &&
+      !stages_.change_counts()) {
     progress_.note_remedy(fmt::format("the mesh is open at the volume's border: {} boundary edges",
                                       totals.n_boundary_edges),
                           Remedy::close_border);
@@ -234,6 +240,7 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
 }
 
 void MeshRun::write() {
+  if (!stages_.empty()) progress_.detail(fmt::format("stages: {}", stages_.names()));
   timed("extract", [&] {
     const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
     for (const Iso& iso : surface_.isos) report_.totals.push_back(run_one(iso.value, *sink));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mc/convert.hpp"
+#include "process/stage_list.hpp"
 
 // One volume to one mesh: open, place, choose the surface, check the budget, then run the engine
 // once for each isovalue. Everything that can refuse comes before what takes long.
@@ -50,6 +51,7 @@ class MeshRun {
 
   const std::string& output_;
   const ConvertOptions& options_;
+  process::StageList stages_;
   const SinkFormat& format_;
   Progress& progress_;
   const std::stop_token& stop_;

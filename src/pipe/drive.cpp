@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "pipe/totals_sum.hpp"
 #include "pipe/vertex_materials.hpp"
+#include "process/stage_list.hpp"
 
 // A chunk stays with the thread that made it where its turn allows. Between a task and the end of
 // its writing lie at most two slots a thread, so memory does not grow with the volume.
@@ -21,7 +22,10 @@ bool has_chunk(const TaskResult& result) {
   return result.chunk.n_vertices() != 0 || result.chunk.n_triangles() != 0;
 }
 
-Error no_surface() { return {ErrorKind::empty, {}, "no surface at this iso"}; }
+Error no_surface(const process::StageList& stages) {
+  if (!stages.change_counts()) return {ErrorKind::empty, {}, "no surface at this iso"};
+  return {ErrorKind::empty, {}, stages.window_names() + ": no surface is left at this iso"};
+}
 
 }  // namespace
 
@@ -33,6 +37,7 @@ struct Drive::Work {
   MeshSink& sink;
   Progress& progress;
   const std::stop_token& stop;
+  process::StageList stages;
   MeshObject object;
   TotalsSum sum;
   std::optional<VertexMaterials> materials;
@@ -40,13 +45,14 @@ struct Drive::Work {
   bool begun = false;
 
   void count(bool allow_empty);
+  void announce(std::uint64_t n_vertices, std::uint64_t n_triangles, bool allow_empty);
   [[nodiscard]] bool is_large();
   [[nodiscard]] MeshTotals counts(std::size_t first, std::size_t stride);
   void extract();
   [[nodiscard]] std::uint64_t n_samples() const;
   void look_at_stop() const;
   void begin_object_once();
-  void give_materials(TaskResult& result) const;
+  void finish(TaskResult& result) const;
   void number(std::size_t slot);
   void place(std::size_t slot);
   void complete(std::size_t slot);
@@ -75,7 +81,13 @@ void Drive::Work::begin_object_once() {
   }
 }
 
-void Drive::Work::give_materials(TaskResult& result) const {
+/// Does to a chunk what tasks leave to be done: all stages if each chunk is taken alone.
+void Drive::Work::finish(TaskResult& result) const {
+  if (!stages.empty() && !stages.need_windows()) {
+    MeshWindow window{result.chunk, object.origin, {0, result.chunk.n_vertices()}, {}};
+    stages.apply(window);
+    if (stages.move_vertices()) result.totals.bounds = process::bounds_of(result.chunk);
+  }
   result.totals.n_materials_held = materials ? materials->give(result.chunk) : 0;
 }
 
@@ -112,7 +124,7 @@ void Drive::Work::make_pieces(std::size_t n, std::uint64_t first_vertex, TaskRes
        [&](std::size_t piece, std::size_t maker) {
          look_at_stop();
          tasks.make_piece(piece, maker, pieces[maker]);
-         give_materials(pieces[maker]);
+         finish(pieces[maker]);
          pieces[maker].chunk.index_base += first_vertex;
          if (has_chunk(pieces[maker])) sink.format(pieces[maker].chunk, sink_slot(maker));
        }},
@@ -164,10 +176,14 @@ bool Drive::Work::is_large() {
 void Drive::Work::count(bool allow_empty) {
   progress.begin("count", n_samples(), "samples");
   const MeshTotals counted = counts(0, 1);
-  object.n_vertices = counted.n_vertices;
-  object.n_triangles = counted.n_triangles;
-  if (object.n_triangles == 0U && !allow_empty) throw no_surface();
-  if (object.n_triangles != 0U) begin_object_once();  // what a sink cannot hold is not made
+  announce(counted.n_vertices, counted.n_triangles, allow_empty);
+}
+
+void Drive::Work::announce(std::uint64_t n_vertices, std::uint64_t n_triangles, bool allow_empty) {
+  object.n_vertices = n_vertices;
+  object.n_triangles = n_triangles;
+  if (n_triangles == 0 && !allow_empty) throw no_surface(stages);
+  if (n_triangles != 0) begin_object_once();  // what a sink cannot hold is not made
 }
 
 void Drive::Work::extract() {
@@ -182,7 +198,7 @@ void Drive::Work::extract() {
        [this](std::size_t n, std::size_t slot) {
          look_at_stop();
          tasks.make(n, slot, results[slot]);
-         give_materials(results[slot]);
+         finish(results[slot]);
        }},
       {true, [this](std::size_t /*n*/, std::size_t slot) { number(slot); }},
       {false,
@@ -211,6 +227,7 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
             sink,
             progress,
             stop,
+            process::StageList(options.stages),
             options.object,
             TotalsSum(options.extract.measure),
             std::nullopt};
@@ -222,14 +239,17 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
   work.object.has_materials = options.materials != nullptr;
   work.object.precision = options.extract.precision;
   work.object.origin = options.extract.origin;
+  work.stages.describe(work.object);
   const CountFirst count = options.count_first;
-  if (count == CountFirst::yes || (count == CountFirst::if_large && work.is_large())) {
+  if (const std::optional<Counts> known = tasks.known_counts()) {
+    work.announce(known->n_vertices, known->n_triangles, allow_empty);
+  } else if (count == CountFirst::yes || (count == CountFirst::if_large && work.is_large())) {
     work.count(allow_empty);
   }
   work.extract();
   const MeshTotals totals = work.sum.totals(work.object.origin);
   if (totals.n_triangles == 0 && !allow_empty) {
-    throw no_surface();
+    throw no_surface(work.stages);
   }
   work.begin_object_once();
   sink.end_object(totals);

@@ -2,10 +2,13 @@
 #include "pipe/room.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <string>
 
 #include "base/parallel.hpp"
 #include "mesh/chunk_room.hpp"
+#include "process/stage_list.hpp"
 
 namespace mc::pipe {
 
@@ -28,13 +31,15 @@ constexpr std::uint64_t kMostGrowth = 3;
 /// A vertex's material in its chunk, and the most that a sink makes of it.
 constexpr std::uint64_t kMaterialBytes = 2 + 8;
 
-/// How a chunk and what the sink makes of it divide their memory.
+/// bytes * by / part, without overflow.
+std::uint64_t scaled(std::uint64_t bytes, std::uint64_t by, std::uint64_t part) {
+  return bytes / part * by + bytes % part * by / part;
+}
+
+/// How a chunk and what stages and the sink make of it divide their memory.
 class Shares {
  public:
-  explicit Shares(const RunOptions& o)
-      : vertex_(mesh::vertex_bytes(o.extract.precision, o.extract.normals != Normals::none)),
-        made_vertex_(o.formatted.vertex_bytes + (o.materials == nullptr ? 0 : kMaterialBytes)),
-        made_triangle_(o.formatted.triangle_bytes) {}
+  explicit Shares(const RunOptions& o) : Shares(o, process::StageList(o.stages)) {}
 
   /// A chunk of so many bytes with what is made of it, whether it is all vertices or all triangles.
   [[nodiscard]] std::uint64_t with_made(std::uint64_t chunk_bytes) const {
@@ -52,12 +57,19 @@ class Shares {
   }
 
  private:
+  Shares(const RunOptions& o, const process::StageList& stages)
+      : vertex_(mesh::vertex_bytes(o.extract.precision,
+                                   stages.with_normals(o.extract.normals != Normals::none))),
+        made_vertex_(o.formatted.vertex_bytes + (o.materials == nullptr ? 0 : kMaterialBytes)),
+        made_triangle_(o.formatted.triangle_bytes) {
+    if (!stages.need_windows()) {  // else tasks count the scratch, for windows
+      made_vertex_ += stages.vertex_bytes();
+      made_triangle_ += stages.triangle_bytes();
+    }
+  }
   [[nodiscard]] std::uint64_t made(std::uint64_t chunk_bytes) const {
     return std::max(scaled(chunk_bytes, made_vertex_, vertex_),
                     scaled(chunk_bytes, made_triangle_, mesh::kTriangleBytes));
-  }
-  static std::uint64_t scaled(std::uint64_t bytes, std::uint64_t by, std::uint64_t part) {
-    return bytes / part * by + bytes % part * by / part;
   }
   std::uint64_t vertex_, made_vertex_, made_triangle_;
 };
@@ -73,16 +85,37 @@ std::uint64_t piece_bytes(const TaskList& tasks, std::uint64_t budget) {
 /// Bytes of a run beside its input.
 std::uint64_t own_bytes(const TaskList& tasks, const Room& room, const RunOptions& options) {
   const Shares shares(options);
-  return kProgramBytes + tasks.held_bytes(room.n_slots, room.n_makers) +
+  return kProgramBytes + process::StageList(options.stages).held_bytes() +
+         tasks.held_bytes(room.n_slots, room.n_makers) +
          room.n_slots * shares.with_made(room.chunk_bytes) +
          room.n_makers * shares.with_made(room.piece_bytes);
+}
+
+/// One for each of so many slots, if there can be pieces.
+std::size_t n_makers(const TaskList& tasks, std::size_t n_slots) {
+  return tasks.has_pieces() ? n_slots : 0;
+}
+
+/// Bytes that are enough for the chunk of a task.
+std::uint64_t enough_bytes(const TaskList& tasks, const Room& room) {
+  return tasks.has_pieces() ? kPiecesAChunk * room.piece_bytes : tasks.least_chunk_bytes();
+}
+
+/// Quarters of the budget to fit tasks into, from the best on: the chunks get the rest.
+std::span<const std::uint64_t> quarters_held(const TaskList& tasks) {
+  static constexpr std::array<std::uint64_t, 1> kOfSlabs{2};
+  static constexpr std::array<std::uint64_t, 3> kOfWindows{3, 2, 1};
+  if (tasks.has_pieces()) return kOfSlabs;
+  return kOfWindows;
 }
 
 /// The room of so many tasks at once, whose chunks get what is left; of no bytes where there is
 /// none.
 Room room_of(TaskList& tasks, std::size_t n_slots, const RunOptions& options) {
   const std::uint64_t budget = own_budget(tasks, options);
-  Room room{n_slots, 0, n_slots, piece_bytes(tasks, budget)};
+  Room room{n_slots};
+  room.n_makers = n_makers(tasks, n_slots);
+  room.piece_bytes = piece_bytes(tasks, budget);
   const std::uint64_t fixed = own_bytes(tasks, room, options);
   if (fixed < budget) {
     room.chunk_bytes = Shares(options).chunk_of((budget - fixed) / n_slots);
@@ -98,12 +131,17 @@ std::string allowed(std::uint64_t bytes) {
                            : std::to_string(bytes >> 20U) + " MiB";
 }
 
+std::string run_name(const RunOptions& options) {
+  const process::StageList stages(options.stages);
+  return stages.need_windows() ? "this run with " + stages.window_names() : "this run";
+}
+
 }  // namespace
 
 std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
   tasks.fit(1, 0);
   const std::uint64_t chunk = tasks.least_chunk_bytes();
-  const std::uint64_t own = own_bytes(tasks, {1, chunk, 1, chunk}, options);
+  const std::uint64_t own = own_bytes(tasks, {1, chunk, n_makers(tasks, 1), chunk}, options);
   return own + std::min(own, tasks.input_bytes());
 }
 
@@ -112,8 +150,9 @@ std::uint64_t bytes_of(const TaskList& tasks, const Room& room, std::uint64_t co
   const Shares shares(options);
   const std::uint64_t n_slots =
       std::min<std::uint64_t>(room.n_slots, std::max<std::size_t>(tasks.n_tasks(), 1));
-  const std::uint64_t fixed =
-      tasks.input_bytes() + kProgramBytes + tasks.held_bytes(n_slots, room.n_makers);
+  const std::uint64_t fixed = tasks.input_bytes() + kProgramBytes +
+                              process::StageList(options.stages).held_bytes() +
+                              tasks.held_bytes(n_slots, room.n_makers);
   const std::uint64_t growing = shares.growing(content_bytes);
   if (content_bytes < room.chunk_bytes / kMostGrowth) return fixed + n_slots * growing;
   const std::uint64_t slot = shares.with_made(room.chunk_bytes);
@@ -129,18 +168,20 @@ Room room_within(TaskList& tasks, const RunOptions& options) {
             std::max(options.chunk_bytes, tasks.least_chunk_bytes())};
   }
   for (std::size_t n_slots = base::pipeline_slots(); n_slots > 0; n_slots /= 2) {
-    tasks.fit(n_slots, own_budget(tasks, options) / 2);
-    const Room room = room_of(tasks, n_slots, options);
-    if (room.chunk_bytes >= kPiecesAChunk * room.piece_bytes) return room;
+    for (const std::uint64_t quarters : quarters_held(tasks)) {
+      tasks.fit(n_slots, scaled(own_budget(tasks, options), quarters, 4));
+      const Room room = room_of(tasks, n_slots, options);
+      if (room.chunk_bytes != 0 && room.chunk_bytes >= enough_bytes(tasks, room)) return room;
+    }
   }
   const std::uint64_t least = least_bytes(tasks, options);
   if (options.memory_bytes < least) {
     throw Error(ErrorKind::limit, {},
-                "this run needs at least " + mebibytes(least) + ", but only " +
+                run_name(options) + " needs at least " + mebibytes(least) + ", but only " +
                     allowed(options.memory_bytes) + " are allowed",
                 Remedy::more_memory);
   }
-  Room room{1, 0, 1, tasks.least_chunk_bytes()};
+  Room room{1, 0, n_makers(tasks, 1), tasks.least_chunk_bytes()};
   room.chunk_bytes = room.piece_bytes;
   return room;
 }

@@ -9,6 +9,8 @@
 #include "pipe/drive.hpp"
 #include "pipe/room.hpp"
 #include "pipe/tasks.hpp"
+#include "pipe/window_tasks.hpp"
+#include "process/stage_list.hpp"
 
 // A run: its tasks, as much room as its memory allows, and the drive that takes it through.
 
@@ -16,14 +18,45 @@ namespace mc {
 
 namespace {
 
+std::unique_ptr<pipe::TaskList> dense_tasks_for(const pipe::PlaneInput& input,
+                                                const RunOptions& options) {
+  return process::StageList(options.stages).need_windows()
+             ? pipe::dense_window_tasks(input, options)
+             : pipe::dense_tasks(input, options);
+}
+
 std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunOptions& options) {
+  process::StageList(options.stages).check();
   if (is_dense(reader)) {
     if (options.extract.part && is_stream(reader)) {
       throw Error(ErrorKind::usage, volume_of(reader).name, "a stream cannot be meshed in parts");
     }
-    return pipe::dense_tasks(pipe::PlaneInput::of(reader), options);
+    return dense_tasks_for(pipe::PlaneInput::of(reader), options);
   }
-  return pipe::sparse_tasks(*std::get<std::unique_ptr<LeafReader>>(reader), options);
+  const LeafReader& leaves = *std::get<std::unique_ptr<LeafReader>>(reader);
+  return process::StageList(options.stages).need_windows()
+             ? pipe::sparse_window_tasks(leaves, options)
+             : pipe::sparse_tasks(leaves, options);
+}
+
+/// Tasks that are planned as far as they must be. A budget that is too small for any surface is
+/// refused before anything is read.
+std::unique_ptr<pipe::TaskList> planned_tasks(const VolumeReader& reader, const RunOptions& options,
+                                              Progress& progress, const std::stop_token& stop) {
+  auto tasks = tasks_for(reader, options);
+  if (process::StageList(options.stages).need_windows() && !is_stream(reader)) {
+    pipe::room_within(*tasks, options);
+    tasks->plan(progress, stop);
+  }
+  return tasks;
+}
+
+void refuse_stream(const VolumeReader& reader, const process::StageList& stages) {
+  if (is_stream(reader) && stages.need_windows()) {
+    throw Error(ErrorKind::usage, volume_of(reader).name,
+                "a stream is read only once, but " + stages.window_names() + " needs more",
+                "copy the stream to disk first");
+  }
 }
 
 /// Changes what the tasks were fit to.
@@ -61,15 +94,16 @@ std::uint64_t counted_content(pipe::TaskList& tasks, std::size_t n_slots, const 
 }  // namespace
 
 MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options) {
-  return need_of(*tasks_for(reader, options), options);
+  return need_of(*planned_tasks(reader, options, silent_progress(), {}), options);
 }
 
 MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
                           const std::stop_token& stop, bool streamed) {
   const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
   const auto tasks = streamed && dense != nullptr
-                         ? pipe::dense_tasks(pipe::PlaneInput::planned_as_stream(**dense), options)
+                         ? dense_tasks_for(pipe::PlaneInput::planned_as_stream(**dense), options)
                          : tasks_for(reader, options);
+  tasks->plan(silent_progress(), stop);
   MemoryNeed need = need_of(*tasks, options);
   const pipe::Room room = pipe::room_within(*tasks, options);
   tasks->set_room(room);
@@ -84,11 +118,15 @@ void check_memory(const VolumeReader& reader, const RunOptions& options) {
 
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop) {
-  const auto tasks = tasks_for(reader, options);
-  if (options.tell_need) options.tell_need(need_of(*tasks, options));
-  const pipe::Room room = pipe::room_within(*tasks, options);
-  tasks->set_room(room);
+  const process::StageList stages(options.stages);
+  refuse_stream(reader, stages);
   RunOptions chosen = options;
+  // Stages that take each chunk alone leave no triangle to measure.
+  if (stages.move_vertices() && !stages.need_windows()) chosen.extract.measure = false;
+  const auto tasks = planned_tasks(reader, chosen, progress, stop);
+  if (options.tell_need) options.tell_need(need_of(*tasks, chosen));
+  const pipe::Room room = pipe::room_within(*tasks, chosen);
+  tasks->set_room(room);
   chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
   if (is_stream(reader)) chosen.count_first = CountFirst::no;
   return pipe::Drive().run(*tasks, room, chosen, allow_empty, sink, progress, stop);

@@ -20,7 +20,7 @@ constexpr std::size_t kBlocksPerTask = 512;
 class SparseTasks final : public TaskList {
  public:
   SparseTasks(const LeafReader& reader, const RunOptions& options)
-      : reader_(reader), extract_(options.extract), engine_(new_engine(options)) {}
+      : reader_(reader), extract_(options.extract), engine_(block_engine(reader, options)) {}
 
   void set_room(const Room& room) override {
     room_ = room;
@@ -76,17 +76,6 @@ class SparseTasks final : public TaskList {
     std::size_t next = 0, last = 0;  ///< blocks that its task's chunk could not hold
   };
 
-  [[nodiscard]] std::unique_ptr<BlockEngine> new_engine(const RunOptions& options) const {
-    const Method& method = method_of(extract_);
-    if (method.sparse == nullptr) {
-      throw Error(
-          ErrorKind::usage, reader_.volume().name,
-          "is sparse, and the method " + std::string(method.name) + " meshes dense volumes only");
-    }
-    chosen_layers(extract_, sparse_layers(reader_, options));
-    return method.sparse(reader_, options.to_world.value_or(reader_.volume().lattice.to_world),
-                         extract_);
-  }
   /// Of the largest chunk of a task, with so many triangles a vertex.
   [[nodiscard]] std::uint64_t content_with(std::uint64_t n_triangles) const {
     std::uint64_t n = 0;
@@ -123,6 +112,18 @@ class SparseTasks final : public TaskList {
 
 std::unique_ptr<TaskList> sparse_tasks(const LeafReader& reader, const RunOptions& options) {
   return std::make_unique<SparseTasks>(reader, options);
+}
+
+std::unique_ptr<BlockEngine> block_engine(const LeafReader& reader, const RunOptions& options) {
+  const Method& method = method_of(options.extract);
+  if (method.sparse == nullptr) {
+    throw Error(
+        ErrorKind::usage, reader.volume().name,
+        "is sparse, and the method " + std::string(method.name) + " meshes dense volumes only");
+  }
+  chosen_layers(options.extract, sparse_layers(reader, options));
+  return method.sparse(reader, options.to_world.value_or(reader.volume().lattice.to_world),
+                       options.extract);
 }
 
 LayerRange sparse_layers(const LeafReader& reader, const RunOptions& options) {

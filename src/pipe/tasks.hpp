@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "mc/mesh.hpp"
 #include "mc/method.hpp"
 #include "mc/pipe.hpp"
 #include "pipe/plane_input.hpp"
+#include "process/figures.hpp"
 
 // A run as the pipe sees it, dense or sparse: a list of tasks, each of which makes one chunk. Where
 // a task's mesh is more than its chunk may hold, the rest of it comes in pieces, which are made
@@ -21,6 +24,7 @@ namespace mc::pipe {
 struct TaskTotals : SurfaceTotals {
   std::uint64_t n_asked = 0, n_skipped = 0;  ///< as in MeshTotals
   std::uint64_t n_materials_held = 0;
+  std::optional<process::SurfaceSums> sums;  ///< if measured after stages, instead of layers
 
   /// Adds what a piece of the task found; vertices have been counted.
   void add_piece(const TaskTotals& piece) {
@@ -47,10 +51,18 @@ struct Room {
   std::uint64_t piece_bytes = 0;
 };
 
+/// Of a mesh or a part of it.
+struct Counts {
+  std::uint64_t n_vertices = 0, n_triangles = 0, n_boundary_edges = 0;
+};
+
 /// The work of one extraction. make() may be called from several threads with different slots.
 class TaskList {
  public:
   virtual ~TaskList() = default;
+  /// Looks at the volume as far as fit() must know it. Before all below, or not at all if only an
+  /// estimate is wanted.
+  virtual void plan(Progress& /*progress*/, const std::stop_token& /*stop*/) {}
   /// Chooses the size of tasks so that what so many of them hold beside chunks keeps within `bytes`
   /// where it can. Before all below.
   virtual void fit(std::size_t /*n_slots*/, std::uint64_t /*bytes*/) {}
@@ -64,6 +76,8 @@ class TaskList {
   /// Reads what make() will need, where that must happen in order; called so before each make().
   virtual void fetch(std::size_t /*n*/, std::size_t /*slot*/) {}
   virtual void make(std::size_t n, std::size_t slot, TaskResult& out) = 0;
+  /// Whether tasks can be completed piece by piece. If not, chunks have all of their tasks' mesh.
+  [[nodiscard]] virtual bool has_pieces() const { return true; }
   /// Goes on with a task that is not complete, of which nothing may be in the way: prepares pieces,
   /// one after the other in order, and returns how many; 0 when nothing is left. For one task at a
   /// time.
@@ -71,6 +85,8 @@ class TaskList {
   /// Makes one of them; in its chunk, index_base counts from the vertices that the task's own chunk
   /// does not hold. May be called from several threads with different makers.
   virtual void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) = 0;
+  /// What all tasks will find, if that is known already.
+  [[nodiscard]] virtual std::optional<Counts> known_counts() const { return std::nullopt; }
   /// Only counts.
   virtual void count(std::size_t n, std::size_t slot, TaskResult& out) = 0;
   /// Bytes that a run holds beside chunks.
@@ -91,6 +107,8 @@ class TaskList {
 ///          volume; limit: one layer could hold more vertices than 32-bit ids can name.
 std::unique_ptr<TaskList> dense_tasks(const PlaneInput& input, const RunOptions& options);
 std::unique_ptr<TaskList> sparse_tasks(const LeafReader& reader, const RunOptions& options);
+/// Plans the blocks of a sparse volume. Errors   as sparse_tasks().
+std::unique_ptr<BlockEngine> block_engine(const LeafReader& reader, const RunOptions& options);
 
 /// The layers that there are, as mc::part_layers().
 LayerRange dense_layers(const Volume& volume, const RunOptions& options);

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "mc/mesh.hpp"
 #include "pipe/tasks.hpp"
+#include "process/figures.hpp"
 
 namespace mc::pipe {
 
@@ -30,9 +32,17 @@ class TotalsSum {
       *totals_.area += layer.area;
       *totals_.volume += layer.volume;
     }
+    if (task.sums) {
+      if (!sums_) sums_.emplace();
+      sums_->add(*task.sums);
+    }
   }
   [[nodiscard]] MeshTotals totals(const Vec3& origin) const {
     MeshTotals out = totals_;
+    if (sums_) {
+      out.area = sums_->area.value();
+      out.volume = sums_->volume.value();
+    }
     if (out.n_boundary_edges != 0) {
       out.volume.reset();  // an open surface encloses none
     }
@@ -47,6 +57,7 @@ class TotalsSum {
 
  private:
   MeshTotals totals_;
+  std::optional<process::SurfaceSums> sums_;
 };
 
 }  // namespace mc::pipe

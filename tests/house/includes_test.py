@@ -51,6 +51,9 @@ class IncludeLaw(unittest.TestCase):
         )
         self.forbidden("src/mesh/a.cpp", '"extract/a.hpp"', "room mesh may include base")
         self.forbidden(
+            "src/process/a.cpp", '"pipe/a.hpp"', "room process may include base field mesh"
+        )
+        self.forbidden(
             "src/utils/a.cpp", "<vector>", "src/utils is no room: it has no line in scripts/includes.py"
         )
         self.forbidden("src/mesh/a.cpp", '"a.hpp"', 'write "room/file.hpp", from src/')

@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include "base/parallel.hpp"
+#include "support/mesh_stages.hpp"
+#include "support/packed_bytes.hpp"
 #include "support/source_files.hpp"
 
 namespace mc {
@@ -39,7 +44,9 @@ class Notes final : public Progress {
     remedies.push_back(remedy);
   }
   void warn(std::string_view) override {}
+  void detail(std::string_view text) override { details.emplace_back(text); }
   std::vector<std::string> notes;
+  std::vector<std::string> details;
   std::vector<Remedy> remedies;
 };
 
@@ -162,6 +169,78 @@ TEST(Convert, NotesAnOpenBorder) {
   Notes none;
   convert(input, folder.path("closed.ply"), options, none);
   EXPECT_TRUE(none.remedies.empty());
+}
+
+/// Smoothing halves the octahedron about its centre.
+TEST(Convert, AppliesStagesToTheMesh) {
+  const Folder folder;
+  const test::Smooth smooth(1);
+  const std::array<const MeshStage*, 1> stages{&smooth};
+  ConvertOptions options = dot_options();
+  options.stages = stages;
+  options.extract.measure = true;
+  for (const char* name : {"small.ply", "small.glb", "small.obj"}) {
+    SCOPED_TRACE(name);
+    Notes notes;
+    const std::string output = folder.path(name);
+    const ConvertReport report = convert(write_dot(folder), output, options, notes);
+    EXPECT_EQ(std::ranges::count(notes.details, "stages: smooth"), 1);
+    EXPECT_NEAR(report.totals.at(0).volume.value(), 4.0 / 3 / 64, 1e-12);
+    EXPECT_EQ(report.totals.at(0).bounds.lo, (Vec3{1.75, 1.75, 1.75}));
+    const auto mesh = read_mesh(output);
+    ASSERT_EQ(mesh.n_vertices(), 6U);
+    ASSERT_EQ(mesh.n_triangles(), 8U);
+    for (std::size_t v = 0; v < mesh.n_vertices(); ++v) {
+      const Vec3 p = mesh.position(v);
+      EXPECT_EQ(std::abs(p[0] - 2) + std::abs(p[1] - 2) + std::abs(p[2] - 2), 0.25);
+    }
+  }
+}
+
+TEST(Convert, SpoolsAStreamForStagesThatReadItTwice) {
+  const Folder folder;
+  const std::string input = write_dot(folder);
+  const std::string packed = folder.file("dot.raw.gz", test::gzip_bytes(test::read_bytes(input)));
+  const test::Smooth smooth(1);
+  const test::Bend bend;
+  const std::array<const MeshStage*, 1> window{&smooth};
+  const std::array<const MeshStage*, 1> chunks{&bend};
+  ConvertOptions options = dot_options();
+  for (const MeshStages stages : {MeshStages(window), MeshStages(chunks)}) {
+    options.sink.force = true;
+    options.stages = stages;
+    convert(input, folder.path("mapped.ply"), options);
+    const ConvertReport report = convert(packed, folder.path("streamed.ply"), options);
+    EXPECT_EQ(test::read_bytes(folder.path("streamed.ply")),
+              test::read_bytes(folder.path("mapped.ply")));
+    const auto is_spool = [](const StageTime& stage) { return stage.name == "spool"; };
+    EXPECT_EQ(std::ranges::any_of(report.stages, is_spool), stages[0] == &smooth);
+  }
+}
+
+TEST(Convert, BlamesTheStagesIfTheyLeaveNothing) {
+  const Folder folder;
+  class None final : public MeshStage {
+   public:
+    [[nodiscard]] std::string_view name() const override { return "none"; }
+    [[nodiscard]] std::int32_t reach() const override { return 1; }
+    [[nodiscard]] bool changes_counts() const override { return true; }
+    void apply(MeshWindow& window) const override {
+      window.keep(std::vector<std::uint8_t>(window.n_vertices()),
+                  std::vector<std::uint8_t>(window.n_triangles()));
+    }
+  } const none;
+  const std::array<const MeshStage*, 1> stages{&none};
+  ConvertOptions options = dot_options();
+  options.stages = stages;
+  try {
+    convert(write_dot(folder), folder.path("none.ply"), options);
+    FAIL() << "nothing is left";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::empty);
+    EXPECT_EQ(std::string(error.what()), "none: no surface is left at this iso");
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path("none.ply")));
 }
 
 class Records final : public ScriptObserver {
