@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/disjoint_sets.hpp"
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "mc/mesh.hpp"
@@ -350,22 +351,14 @@ std::uint64_t count_components(Triangles<VertexId> triangles, std::size_t n,
                                std::uint64_t n_referenced) {
   std::vector<Id> parent(n);
   std::iota(parent.begin(), parent.end(), Id{0});
-  const auto root = [&](std::uint64_t v) {
-    while (parent[v] != v) {
-      v = parent[v] = parent[parent[v]];
-    }
-    return v;
-  };
   std::uint64_t n_components = n_referenced;
   for (const Triangle<VertexId>& t : triangles) {
     if (!proper(t, n)) {
       continue;
     }
     for (std::size_t c = 1; c < 3; ++c) {
-      const std::uint64_t a = root(t[0]);
-      const std::uint64_t b = root(t[c]);
-      parent[std::max(a, b)] = static_cast<Id>(std::min(a, b));
-      n_components -= a != b ? 1 : 0;
+      const bool joined = base::unite_sets(parent, static_cast<Id>(t[0]), static_cast<Id>(t[c]));
+      n_components -= joined ? 1 : 0;
     }
   }
   return n_components;
