@@ -35,8 +35,9 @@ CORE = {"base", "field", "graph", "edit", "mesh", "extract", "process", "pipe"}
 # itself.
 FOLDERS = {
     "extract/bits": "",
-    "extract/cubes": "bits",
-    "extract/sparse": "bits cubes",
+    "extract/components": "bits",
+    "extract/cubes": "bits components",
+    "extract/sparse": "bits components cubes",
 }
 
 # Public headers that the core does not see: it knows no file format.

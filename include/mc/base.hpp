@@ -37,6 +37,7 @@ enum class Remedy : std::uint8_t {
   close_border,    ///< Border::closed
   choose_grid,     ///< SourceOptions::grid
   choose_iso,      ///< an isovalue within the range of the data
+  keep_smaller,    ///< KeepRule: a smaller size
 };
 
 /// The one exception of the library.

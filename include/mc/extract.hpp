@@ -19,7 +19,8 @@ enum class Inside : std::uint8_t { above, below };
 enum class Normals : std::uint8_t { none, gradient, face };
 enum class Interpolation : std::uint8_t { linear, midpoint };
 
-struct Method;  // mc/method.hpp
+struct Method;             // mc/method.hpp
+class ComponentSelection;  // which components of a surface remain
 
 /// A run of layers: [first, last).
 struct LayerRange {
@@ -49,6 +50,9 @@ struct ExtractOptions {
   /// for streams and ChunkMesher.
   std::optional<LayerRange> part{};
   const Method* method = nullptr;  ///< null: cubes_method()
+  /// Components that remain, of the same volume, iso, side and region; null: all. The run sets it
+  /// (RunOptions::keep). Not for ChunkMesher.
+  const ComponentSelection* selection = nullptr;
 
   bool operator==(const ExtractOptions&) const = default;
 };

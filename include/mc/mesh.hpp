@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mc/base.hpp"
+#include "mc/components.hpp"
 
 // Triangle meshes, whole (Mesh) or as a stream of chunks (MeshChunk into a MeshSink), and their
 // figures.
@@ -40,6 +41,7 @@ struct MeshTotals {
   /// Samples that dense slabs asked for, those between two slabs in both, and how many of them the
   /// source skipped because the surface was not near. Facts of the run, not of the mesh.
   std::uint64_t n_asked = 0, n_skipped = 0;
+  std::optional<ComponentCounts> components;  ///< only if some were to be left out
   std::uint64_t n_materials_held = 0;  ///< vertices whose material's number was none of 16 bits
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.

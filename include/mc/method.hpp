@@ -178,6 +178,8 @@ struct Method {
   std::unique_ptr<SlabEngine> (*box)(const Volume& volume, const Affine& to_world,
                                      const ExtractOptions& options,
                                      const IndexBox& cells) = nullptr;
+  /// Whether its engines obey ExtractOptions::selection; components are then those of cubes.
+  bool selects_components = false;
 };
 
 /// Marching cubes, dense and sparse: the method unless ExtractOptions names another.

@@ -8,6 +8,7 @@
 #include <span>
 #include <stop_token>
 
+#include "mc/components.hpp"
 #include "mc/edit.hpp"
 #include "mc/extract.hpp"
 #include "mc/field.hpp"
@@ -43,6 +44,7 @@ struct RunOptions {
   std::uint64_t memory_bytes = 1ULL << 30;
   std::int32_t slab_layers = 0;             ///< cell layers a task; 0: chosen from the plane's size
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
+  std::optional<KeepRule> keep;             ///< components that remain; unset: all. Not for streams
   CountFirst count_first = CountFirst::no;  ///< ignored for streams, which are read once
   const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
   MeshStages stages{};  ///< applied to the mesh on its way to the sink, in order

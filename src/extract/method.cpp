@@ -27,7 +27,11 @@ std::unique_ptr<SlabEngine> cubes_in_box(const Volume& volume, const Affine& to_
   return std::make_unique<extraction::DenseExtractor>(volume, to_world, options, cells);
 }
 
-constexpr Method kCubes{"cubes", dense_cubes, sparse_cubes, cubes_in_box};
+constexpr Method kCubes{.name = "cubes",
+                        .dense = dense_cubes,
+                        .sparse = sparse_cubes,
+                        .box = cubes_in_box,
+                        .selects_components = true};
 
 }  // namespace
 

@@ -217,8 +217,8 @@ void Drive::Work::extract() {
 }
 
 MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& options,
-                      bool allow_empty, MeshSink& sink, Progress& progress,
-                      const std::stop_token& stop) {
+                      bool allow_empty, const std::optional<ComponentCounts>& components,
+                      MeshSink& sink, Progress& progress, const std::stop_token& stop) {
   results_.resize(std::max(results_.size(), room.n_slots + room.n_makers));
   const std::span results(results_);
   Work work{tasks,
@@ -247,7 +247,8 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
     work.count(allow_empty);
   }
   work.extract();
-  const MeshTotals totals = work.sum.totals(work.object.origin);
+  MeshTotals totals = work.sum.totals(work.object.origin);
+  totals.components = components;
   if (totals.n_triangles == 0 && !allow_empty) {
     throw no_surface(work.stages);
   }

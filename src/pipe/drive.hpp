@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -19,9 +20,10 @@ namespace mc::pipe {
 class Drive {
  public:
   /// Runs all tasks, which have been set to this room; as mc::run(). With materials, the options
-  /// have the map to the world.
+  /// have the map to the world. `components` go into the totals.
   MeshTotals run(TaskList& tasks, const Room& room, const RunOptions& options, bool allow_empty,
-                 MeshSink& sink, Progress& progress, const std::stop_token& stop);
+                 const std::optional<ComponentCounts>& components, MeshSink& sink,
+                 Progress& progress, const std::stop_token& stop);
 
  private:
   struct Work;

@@ -117,7 +117,7 @@ void Extractor::extract(View3<const T> view, const ExtractOptions& options, cons
     Scratch::Setup& setup = s.set_up(field::type_of<T>(), view.dims, options, to_world);
     setup.reader.look_at(view);
     setup.tasks->forget();
-    s.drive.run(*setup.tasks, setup.room, s.run_options, true, s.sink, silent_progress(), {});
+    s.drive.run(*setup.tasks, setup.room, s.run_options, true, {}, s.sink, silent_progress(), {});
   } catch (...) {
     s.sink.start(mesh);  // what is there of it is no mesh
     throw;

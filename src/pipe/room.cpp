@@ -7,16 +7,13 @@
 #include <string>
 
 #include "base/parallel.hpp"
+#include "extract/components/selection.hpp"
 #include "mesh/chunk_room.hpp"
 #include "process/stage_list.hpp"
 
 namespace mc::pipe {
 
 namespace {
-
-/// What the program holds before it starts, stacks and small things besides: measured, and as much
-/// again.
-constexpr std::uint64_t kProgramBytes = 12U << 20U;
 
 /// Larger pieces are no faster.
 constexpr std::uint64_t kMostPieceBytes = 8U << 20U;
@@ -82,10 +79,15 @@ std::uint64_t piece_bytes(const TaskList& tasks, std::uint64_t budget) {
   return std::max(std::min(budget / kPieceShare, kMostPieceBytes), tasks.least_chunk_bytes());
 }
 
+std::uint64_t selection_bytes(const RunOptions& options) {
+  return options.extract.selection == nullptr ? 0 : options.extract.selection->bytes();
+}
+
 /// Bytes of a run beside its input.
 std::uint64_t own_bytes(const TaskList& tasks, const Room& room, const RunOptions& options) {
   const Shares shares(options);
-  return kProgramBytes + process::StageList(options.stages).held_bytes() +
+  return kProgramBytes + selection_bytes(options) +
+         process::StageList(options.stages).held_bytes() +
          tasks.held_bytes(room.n_slots, room.n_makers) +
          room.n_slots * shares.with_made(room.chunk_bytes) +
          room.n_makers * shares.with_made(room.piece_bytes);
@@ -123,9 +125,6 @@ Room room_of(TaskList& tasks, std::size_t n_slots, const RunOptions& options) {
   return room;
 }
 
-std::string mebibytes(std::uint64_t bytes) {
-  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
-}
 std::string allowed(std::uint64_t bytes) {
   return bytes < 1U << 20U ? std::to_string(bytes >> 10U) + " KiB"
                            : std::to_string(bytes >> 20U) + " MiB";
@@ -137,6 +136,10 @@ std::string run_name(const RunOptions& options) {
 }
 
 }  // namespace
+
+std::string mebibytes(std::uint64_t bytes) {
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
+}
 
 std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
   tasks.fit(1, 0);
@@ -150,7 +153,7 @@ std::uint64_t bytes_of(const TaskList& tasks, const Room& room, std::uint64_t co
   const Shares shares(options);
   const std::uint64_t n_slots =
       std::min<std::uint64_t>(room.n_slots, std::max<std::size_t>(tasks.n_tasks(), 1));
-  const std::uint64_t fixed = tasks.input_bytes() + kProgramBytes +
+  const std::uint64_t fixed = tasks.input_bytes() + kProgramBytes + selection_bytes(options) +
                               process::StageList(options.stages).held_bytes() +
                               tasks.held_bytes(n_slots, room.n_makers);
   const std::uint64_t growing = shares.growing(content_bytes);

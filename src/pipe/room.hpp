@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "pipe/tasks.hpp"
 
@@ -9,6 +10,13 @@
 // these.
 
 namespace mc::pipe {
+
+/// What the program holds before it starts, stacks and small things besides: measured, and as much
+/// again.
+inline constexpr std::uint64_t kProgramBytes = 12U << 20U;
+
+/// "3 MiB", rounded up.
+std::string mebibytes(std::uint64_t bytes);
 
 /// Fits tasks into the memory that `options` allow, with as many on their way as there is room for.
 /// Errors   limit: not even one at a time; the message names the least budget.

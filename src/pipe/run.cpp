@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -8,6 +9,7 @@
 #include "mesh/chunk_room.hpp"
 #include "pipe/drive.hpp"
 #include "pipe/room.hpp"
+#include "pipe/select_components.hpp"
 #include "pipe/tasks.hpp"
 #include "pipe/window_tasks.hpp"
 #include "process/stage_list.hpp"
@@ -91,6 +93,24 @@ std::uint64_t counted_content(pipe::TaskList& tasks, std::size_t n_slots, const 
   return most;
 }
 
+/// Makes the mesh in one pass; `components` are those that were told apart before.
+MeshTotals run_pass(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
+                    const std::optional<ComponentCounts>& components, MeshSink& sink,
+                    Progress& progress, const std::stop_token& stop) {
+  const process::StageList stages(options.stages);
+  refuse_stream(reader, stages);
+  RunOptions chosen = options;
+  // Stages that take each chunk alone leave no triangle to measure.
+  if (stages.move_vertices() && !stages.need_windows()) chosen.extract.measure = false;
+  const auto tasks = planned_tasks(reader, chosen, progress, stop);
+  if (options.tell_need) options.tell_need(need_of(*tasks, chosen));
+  const pipe::Room room = pipe::room_within(*tasks, chosen);
+  tasks->set_room(room);
+  chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
+  if (is_stream(reader)) chosen.count_first = CountFirst::no;
+  return pipe::Drive().run(*tasks, room, chosen, allow_empty, components, sink, progress, stop);
+}
+
 }  // namespace
 
 MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options) {
@@ -118,18 +138,22 @@ void check_memory(const VolumeReader& reader, const RunOptions& options) {
 
 MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow_empty,
                MeshSink& sink, Progress& progress, const std::stop_token& stop) {
-  const process::StageList stages(options.stages);
-  refuse_stream(reader, stages);
+  if (!options.keep) return run_pass(reader, options, allow_empty, {}, sink, progress, stop);
+  if (is_stream(reader)) {
+    throw Error(ErrorKind::usage, volume_of(reader).name,
+                "a stream cannot be read twice, as it takes to leave out components");
+  }
+  const pipe::SelectedComponents selected =
+      pipe::select_components(reader, options, progress, stop);
+  const ComponentCounts& counts = selected.counts;
+  if (counts.found != 0 && counts.kept == 0 && !allow_empty) {
+    throw Error(ErrorKind::empty, {},
+                "none of the " + std::to_string(counts.found) + " components is large enough",
+                Remedy::keep_smaller);
+  }
   RunOptions chosen = options;
-  // Stages that take each chunk alone leave no triangle to measure.
-  if (stages.move_vertices() && !stages.need_windows()) chosen.extract.measure = false;
-  const auto tasks = planned_tasks(reader, chosen, progress, stop);
-  if (options.tell_need) options.tell_need(need_of(*tasks, chosen));
-  const pipe::Room room = pipe::room_within(*tasks, chosen);
-  tasks->set_room(room);
-  chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
-  if (is_stream(reader)) chosen.count_first = CountFirst::no;
-  return pipe::Drive().run(*tasks, room, chosen, allow_empty, sink, progress, stop);
+  chosen.extract.selection = &selected.selection;
+  return run_pass(reader, chosen, allow_empty, counts, sink, progress, stop);
 }
 
 }  // namespace mc

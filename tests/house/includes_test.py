@@ -62,7 +62,7 @@ class IncludeLaw(unittest.TestCase):
         bits = "src/extract/bits may include no other folder of its room"
         self.forbidden("src/extract/bits/a.hpp", '"extract/cubes/a.hpp"', bits)
         self.forbidden("src/extract/bits/a.hpp", '"extract/sparse/a.hpp"', bits)
-        cubes = "src/extract/cubes may include bits of its room"
+        cubes = "src/extract/cubes may include bits components of its room"
         self.forbidden("src/extract/cubes/a.cpp", '"extract/sparse/a.hpp"', cubes)
         tree = {
             "src/extract/cubes/a.cpp": '#include "extract/bits/a.hpp"\n',

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -61,6 +62,7 @@ struct How {
   bool count_first = false;
   bool skip = true;
   std::uint64_t chunk_bytes = 0;
+  std::optional<KeepRule> keep{};  ///< but which components remain decides what
 };
 
 inline Collected collect(const VolumeReader& reader, const ExtractOptions& options,
@@ -73,6 +75,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   run_options.skip = how.skip;
   run_options.materials = materials_of(reader);
   run_options.chunk_bytes = how.chunk_bytes;
+  run_options.keep = how.keep;
   Collected out;
   CollectingSink sink(out);
   run(reader, run_options, true, sink, silent_progress(), {});

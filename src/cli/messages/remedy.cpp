@@ -19,6 +19,8 @@ std::string with_remedy(std::string_view text, Remedy remedy) {
       return fmt::format("{}; choose with --grid", text);
     case Remedy::choose_iso:
       return fmt::format("{}; choose an --iso between them", text);
+    case Remedy::keep_smaller:
+      return fmt::format("--keep: {}; ask for a smaller size", text);
   }
   return std::string(text);
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "extract/bits/bit_row.hpp"
+#include "extract/bits/cell.hpp"
 #include "mc/base.hpp"
 
 // Word arithmetic on sample bits: which edges are crossed, and the ids of their vertices.
@@ -24,6 +26,37 @@ struct BitPlane {
   [[nodiscard]] const std::uint64_t* row(std::size_t j) const { return words + j * words_per_row; }
   /// Words of a row worth looking at: one, where that is all, else whole vectors.
   [[nodiscard]] std::size_t words_in_use() const { return n_samples <= 64 ? 1 : words_per_row; }
+};
+
+/// The corners of 64 cells: words w of the rows j and j + 1 of two planes, and of the samples
+/// after.
+class CellWords {
+ public:
+  CellWords(const BitPlane& lower, const BitPlane& upper, std::size_t j, std::size_t w) {
+    for (std::size_t n = 0; n < 4; ++n) {
+      const std::uint64_t* row = (n < 2 ? lower : upper).row(j + n % 2);
+      corners_[2 * n] = row[w];
+      corners_[2 * n + 1] = next_samples(row, w, lower.words_per_row);
+    }
+  }
+  /// Ones for cells whose corners differ.
+  [[nodiscard]] std::uint64_t active() const {
+    std::uint64_t any = 0;
+    std::uint64_t all = ~std::uint64_t{0};
+    for (const std::uint64_t corner : corners_) {
+      any |= corner;
+      all &= corner;
+    }
+    return any & ~all;
+  }
+  [[nodiscard]] CellCase case_at(int bit) const {
+    std::size_t bits = 0;
+    for (std::size_t c = 0; c < kCorners; ++c) bits |= (corners_[c] >> bit & 1U) << c;
+    return CellCase(bits);
+  }
+
+ private:
+  std::array<std::uint64_t, kCorners> corners_{};
 };
 
 /// Whether rows are padded as the kernels need them, and there is a row of cells.

@@ -97,6 +97,7 @@ void DenseExtractor::load(const Slab& slab, std::int32_t plane, SharedPlanes* sh
   PlaneBits& out = bits(plane);
   if (shared == nullptr || !shared->take(plane, out.words)) {
     grid_.classifier.classify(slab, plane, 0, grid_.classifier.n_rows(), out);
+    grid_.select(plane, out);
     if (shared != nullptr) shared->offer(plane, out.words);
   }
   grid_.classifier.take_columns(out);
@@ -153,8 +154,12 @@ std::uint32_t DenseExtractor::make_layer(const Slab& slab, std::int32_t layer, s
                                          std::uint32_t next, mesh::ChunkRoom& room, Pass& pass) {
   std::int32_t coming = layer + 1 + grid_.reach();
   SharedPlanes* const shared = coming >= l1 ? shared_ : nullptr;
-  if (coming >= grid_.n_planes() ||
-      (shared != nullptr && shared->take(coming, bits(coming).words))) {
+  if (coming >= grid_.n_planes()) {
+    coming = kNoPlane;
+  } else if (grid_.options.selection != nullptr) {
+    load(slab, coming, shared);  // components are left out of whole planes only
+    coming = kNoPlane;
+  } else if (shared != nullptr && shared->take(coming, bits(coming).words)) {
     coming = kNoPlane;
   }
   next = write_above(layer, slab, coming, next, pass);

@@ -70,6 +70,7 @@ void DenseBands::load(std::int32_t plane) {
   base::for_ranges(grid_.classifier.n_rows(), kRowsApiece, [&](std::size_t j0, std::size_t j1) {
     grid_.classifier.classify(*slab_, plane, j0, j1, out);
   });
+  grid_.select(plane, out);
   grid_.classifier.take_columns(out);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "extract/bits/plane_bits.hpp"
+#include "extract/components/selection.hpp"
 #include "extract/cubes/edge_vertex.hpp"
 #include "extract/cubes/surface_sums.hpp"
 #include "mc/extract.hpp"
@@ -39,6 +40,12 @@ struct DenseGrid {
                                            std::int32_t layer) const {
     return classifier.border_sides(lower, upper, layer == 0, layer + 1 == n_layers);
   }
+  /// Makes components that are left out not solid, once all rows of a plane are classified.
+  void select(std::int32_t plane, PlaneBits& bits) const {
+    if (options.selection == nullptr) return;
+    options.selection->dense().apply(classifier.first_of(plane)[2], classifier.view(bits),
+                                     bits.words.data());
+  }
   /// Area and volume of the surface in one layer.
   template <class Vertices>
   [[nodiscard]] LayerSum measure(const BitPlane& lower, const BitPlane& upper, std::int32_t layer,
@@ -60,18 +67,11 @@ LayerSum DenseGrid::measure(const BitPlane& lower, const BitPlane& upper, std::i
   LayerSum sum;
   for (std::size_t j = 0; j + 1 < lower.n_rows; ++j) {
     for (std::size_t w = 0; w < lower.words_per_row; ++w) {
-      std::uint64_t any = 0;
-      std::uint64_t all = ~std::uint64_t{0};
-      for (const std::uint64_t* row :
-           {lower.row(j), lower.row(j + 1), upper.row(j), upper.row(j + 1)}) {
-        const std::uint64_t next = next_samples(row, w, lower.words_per_row);
-        any |= row[w] | next;
-        all &= row[w] & next;
-      }
-      for_each_bit(any & ~all & lower.cells[w], [&](int bit) {
+      const CellWords words(lower, upper, j, w);
+      for_each_bit(words.active() & lower.cells[w], [&](int bit) {
         const Index3 cell{first[0] + index_in_row(w, bit), first[1] + static_cast<std::int32_t>(j),
                           first[2]};
-        add_cell(vertices, placement, cell, kCases[vertices.case_of(cell)], apex, sum);
+        add_cell(vertices, placement, cell, kCases[words.case_at(bit)], apex, sum);
       });
     }
   }

@@ -162,7 +162,7 @@ void BlockIndex::grow() {
   }
 }
 
-std::optional<std::uint32_t> BlockIndex::big_tile_at(const Index3& key) const {
+std::optional<std::size_t> BlockIndex::big_tile_number(const Index3& key) const {
   for (const std::int32_t size : big_sizes_) {  // tiles lie at multiples of their size
     const auto down = [size](std::int32_t x) { return x - ((x % size) + size) % size; };
     const Index3 origin{down(key[0]), down(key[1]), down(key[2])};
@@ -170,10 +170,36 @@ std::optional<std::uint32_t> BlockIndex::big_tile_at(const Index3& key) const {
         big_tiles_.begin(), big_tiles_.end(), origin,
         [](const BigTile& t, const Index3& p) { return comes_before(t.origin, p); });
     if (found != big_tiles_.end() && found->origin == origin && found->size == size) {
-      return found->constant;
+      return static_cast<std::size_t>(found - big_tiles_.begin());
     }
   }
   return std::nullopt;
+}
+
+std::vector<BlockIndex::UniformBlocks> BlockIndex::uniform_blocks() const {
+  std::vector<UniformBlocks> out;
+  out.reserve(nodes_.size());
+  for (const Node& node : nodes_) {
+    UniformBlocks& blocks = out.emplace_back();
+    blocks.node = node.key;
+    for (std::size_t w = 0; w < 8; ++w) {
+      const std::uint64_t usual = ~(node.mixed[w] | node.odd[w]);
+      blocks.above[w] = background_.above ? usual : node.odd[w];
+      blocks.below[w] = background_.above ? node.odd[w] : usual;
+    }
+  }
+  std::sort(out.begin(), out.end(), [](const UniformBlocks& a, const UniformBlocks& b) {
+    return comes_before(a.node, b.node);
+  });
+  return out;
+}
+
+std::vector<BlockIndex::UniformNodes> BlockIndex::big_tiles() const {
+  std::vector<UniformNodes> out;
+  for (const BigTile& tile : big_tiles_) {
+    out.push_back({tile.origin, tile.size, constants_[tile.constant].above});
+  }
+  return out;
 }
 
 Block BlockIndex::at(const Index3& block) const {

@@ -57,6 +57,25 @@ class BlockIndex {
   /// Says of each leaf what its samples are; before candidates().
   void set_sides(std::span<const LeafSide> leaves);
 
+  /// The blocks of a node that have samples of one side only; those in no leaf or tile count as
+  /// background.
+  struct UniformBlocks {
+    Index3 node{};
+    Mask512 above{}, below{};
+  };
+  /// Of all nodes that hold a leaf or a small tile, ordered by (z, y, x); after set_sides().
+  [[nodiscard]] std::vector<UniformBlocks> uniform_blocks() const;
+  /// A tile of whole nodes.
+  struct UniformNodes {
+    Index3 origin{};  ///< in nodes
+    std::int32_t size = 0;
+    bool above = false;
+  };
+  /// All of them, ordered by origin.
+  [[nodiscard]] std::vector<UniformNodes> big_tiles() const;
+  /// Which of big_tiles() holds a node.
+  [[nodiscard]] std::optional<std::size_t> big_tile_number(const Index3& node) const;
+
   /// Every block of which, or of whose seven upper neighbours, one is mixed, or some are above and
   /// some below. Ordered by (z, y, x).
   [[nodiscard]] std::vector<SurfaceBlock> candidates() const;
@@ -93,7 +112,10 @@ class BlockIndex {
 
   std::uint32_t node_at(const Index3& key);
   [[nodiscard]] const Node* find(const Index3& key) const;
-  [[nodiscard]] std::optional<std::uint32_t> big_tile_at(const Index3& key) const;
+  [[nodiscard]] std::optional<std::uint32_t> big_tile_at(const Index3& key) const {
+    const std::optional<std::size_t> n = big_tile_number(key);
+    return n ? std::optional(big_tiles_[*n].constant) : std::nullopt;
+  }
   std::uint32_t constant_of(const Scalar& value, const Threshold& threshold);
   void add_leaves(std::span<const Index3> origins);
   void add_tiles(std::span<const Tile> tiles, const Threshold& threshold);

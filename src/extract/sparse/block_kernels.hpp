@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "extract/bits/cell.hpp"
 #include "extract/sparse/block_index.hpp"
 
 // The kernels of the sparse engine: the same word arithmetic as on rows, on blocks of 8x8x8
@@ -80,6 +81,17 @@ inline constexpr EdgePlaces1536 kEdgePlaces = edge_places();
 /// Finds the crossed edges of a block. `exists`, where not null, has ones for samples that there
 /// are: an edge needs both its samples, a cell all its corners.
 BlockEdges find_edges(const BlockBits& above, const BlockBits* exists);
+
+/// The case of a block's cell, named by its lowest corner's place in the block.
+[[nodiscard]] inline CellCase case_in(const BlockBits& above, const Index3& cell) {
+  CellCase out;
+  for (std::size_t c = 0; c < kCorners; ++c) {
+    const Index3 p = Corner(c).of(cell);
+    const auto block = static_cast<std::size_t>((p[0] >> 3) + 2 * (p[1] >> 3) + 4 * (p[2] >> 3));
+    out.set(Corner(c), test(*above[block], field::bit_index(p)));
+  }
+  return out;
+}
 
 /// The cells of a block whose corners differ.
 Mask512 find_cells(const BlockBits& above, const BlockBits* exists);

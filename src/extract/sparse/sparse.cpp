@@ -221,8 +221,9 @@ std::size_t SparseExtractor::extract_typed(std::size_t first, std::size_t last,
       LayerSum sum;
       for (std::int32_t k = 0; k < 8; ++k) {
         for_each_bit(cells[static_cast<std::size_t>(k)], [&](int at) {
-          const Index3 cell{o[0] + (at & 7), o[1] + (at >> 3), o[2] + k};
-          add_cell(vertices, placement_, cell, kCases[vertices.case_of(cell)], apex_, sum);
+          const Index3 within{at & 7, at >> 3, k};
+          const Index3 cell{o[0] + within[0], o[1] + within[1], o[2] + within[2]};
+          add_cell(vertices, placement_, cell, kCases[case_in(above, within)], apex_, sum);
         });
       }
       totals.layers.push_back(sum);

@@ -77,6 +77,7 @@ SparsePlan::SparsePlan(const LeafReader& reader, const ExtractOptions& options)
       layers_(options.part.value_or(kAllLayers)),
       index_(reader, threshold_) {
   find_blocks(classify_leaves());
+  if (options.selection != nullptr) leave_out(options.selection->sparse());
   count_vertices();
 }
 
@@ -307,6 +308,31 @@ const BlockBits* SparsePlan::samples_around(const Index3& block, BlockSamples& o
     out.bits[n] = &out.masks[n];
   }
   return &out.bits;
+}
+
+/// Makes components that are left out not solid, in the blocks and in what blocks say of their
+/// neighbours.
+void SparsePlan::leave_out(const SparseSelection& selection) {
+  const bool solid_above = options_.inside == Inside::above;
+  const std::uint32_t solid = solid_above ? SurfaceBlock::kAbove : SurfaceBlock::kBelow;
+  const std::uint32_t other = solid_above ? SurfaceBlock::kBelow : SurfaceBlock::kAbove;
+  base::for_ranges(blocks_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (SurfaceBlock& block : std::span(blocks_).subspan(begin, end - begin)) {
+      if (mixed_bits(block) != nullptr) {
+        const Mask512* dropped = selection.samples(block.at);
+        for (std::size_t w = 0; dropped != nullptr && w < dropped->size(); ++w) {
+          pool_.at(block.bits)[w] ^= (*dropped)[w];
+        }
+      } else if (block.bits == solid && selection.drops(block.at)) {
+        block.bits = other;
+      }
+      for (std::size_t n = 0; n < 8; ++n) {  // of neighbours that are no surface blocks
+        const auto bit = static_cast<std::uint8_t>(1U << n);
+        const bool above = (block.above & bit) != 0;
+        if (above == solid_above && selection.drops(neighbour(block.at, n))) block.above ^= bit;
+      }
+    }
+  });
 }
 
 /// Counts every block's vertices and drops the blocks without a surface.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "extract/components/selection.hpp"
 #include "extract/sparse/block_index.hpp"
 #include "extract/sparse/block_kernels.hpp"
 #include "extract/sparse/block_walk.hpp"
@@ -31,6 +32,7 @@ class BitPool {
 
   void resize(std::size_t n_groups) { groups_.resize(n_groups); }
   [[nodiscard]] std::vector<Mask512>& group(std::size_t n) { return groups_[n]; }
+  [[nodiscard]] Mask512& at(std::uint32_t place) { return groups_[place / kGroup][place % kGroup]; }
   [[nodiscard]] std::size_t n_groups() const { return groups_.size(); }
   [[nodiscard]] const Mask512& operator[](std::uint32_t place) const {
     assert(place / kGroup < groups_.size() && place % kGroup < groups_[place / kGroup].size());
@@ -96,6 +98,12 @@ class SparsePlan {
   /// Fills `out` and returns its bits where samples of the block's cells may not exist, else null.
   const BlockBits* samples_around(const Index3& block, BlockSamples& out) const;
 
+  /// Sample bits of a block that the surface passes through; null if it has one kind only.
+  [[nodiscard]] const Mask512* mixed_bits(const SurfaceBlock& block) const {
+    const bool uniform = block.bits == SurfaceBlock::kBelow || block.bits == SurfaceBlock::kAbove;
+    return uniform ? nullptr : &pool_[block.bits];
+  }
+
   [[nodiscard]] const BlockIndex& index() const { return index_; }
   [[nodiscard]] const LeafReader& reader() const { return reader_; }
   [[nodiscard]] const ExtractOptions& options() const { return options_; }
@@ -119,6 +127,7 @@ class SparsePlan {
   void check_reach() const;
   void find_capped_blocks(const std::vector<LeafSide>& sides);
   [[nodiscard]] std::vector<Index3> region_faces() const;
+  void leave_out(const SparseSelection& selection);
   void count_vertices();
   [[nodiscard]] Mask512 inside_region(const Index3& block, std::int32_t margin) const;
   [[nodiscard]] bool touches_region(const Index3& block, std::int32_t margin) const;
