@@ -20,6 +20,7 @@ mc_build_packages=(
 mc_test_packages=(
   python3:python3 clang-format-14
   assimp-utils:assimp python3-vtk9 # two readers that know nothing of ours
+  python3-scipy                    # labels components on its own
   python3-jsonschema               # the schema of mc-volume
   zsh:zsh fish:fish                # what completes in them
   npm:npm                          # for the Khronos glTF validator

@@ -118,6 +118,7 @@ struct ConvertOptions {
   ExtractOptions extract{};
   MeshStages stages{};               ///< applied to the mesh before it is written, in order
   std::optional<Normals> normals{};  ///< unset: gradient where the format holds normals, else none
+  std::optional<KeepRule> keep{};    ///< components that remain; unset: all
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< the process's budget
   bool allow_empty = false;                              ///< a mesh without triangles is a success
   bool skip = true;      ///< leave out samples far from the surface where the source can

@@ -132,7 +132,8 @@ FieldStatistics MeshRun::measure(std::span<const double> percentiles) {
 void MeshRun::spool_if_read_again() {
   if (!opened_ || !is_stream(opened_->reader)) return;
   const std::vector<IsoChoice>& isos = options_.surface.isos;
-  const bool again = isos.size() > 1 || options_.extract.region || stages_.need_windows();
+  const bool again =
+      isos.size() > 1 || options_.extract.region || options_.keep || stages_.need_windows();
   if (iso_needs_data(isos, volume()) || (again && !options_.dry_run)) {
     timed("spool", [&] { spool_stream(opened_->reader, progress_); });
   }
@@ -172,6 +173,7 @@ RunOptions MeshRun::run_options(double iso) const {
                             : fmt::format("iso {}", value_text(iso, volume().type));
   options.materials = materials();
   options.memory_bytes = options_.memory_bytes;
+  options.keep = options_.keep;
   options.count_first = counting_of(reader(), stages_);
   options.stages = options_.stages;
   options.skip = options_.skip;
@@ -214,7 +216,8 @@ MeshTotals MeshRun::run_one(double iso, MeshSink& sink) {
   try {
     return mc::run(reader(), options, options_.allow_empty, sink, progress_, stop_);
   } catch (const Error& e) {
-    if (e.kind() != ErrorKind::empty || stages_.change_counts()) throw;
+    const bool has_surface = stages_.change_counts() || e.remedy() == Remedy::keep_smaller;
+    if (e.kind() != ErrorKind::empty || has_surface) throw;
   }
   refuse_empty(iso);
 }
@@ -230,6 +233,10 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
     warn_of_clamped_materials(
         source_->place,
         fmt::format("{} of {} vertices", totals.n_materials_held, totals.n_vertices), progress_);
+  }
+  if (totals.components) {
+    const ComponentCounts& components = *totals.components;
+    progress_.note(fmt::format("kept {} of {} components", components.kept, components.found));
   }
   progress_.detail(
       fmt::format("{}: {} vertices, {} triangles", output_, totals.n_vertices, totals.n_triangles));

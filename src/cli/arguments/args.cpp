@@ -125,6 +125,8 @@ std::vector<Option> surface_options(SurfaceArgs& a) {
        &a.topology, "faces"},
       {"--normals", "HOW", "gradient (default where the format holds normals), face or none", false,
        &a.normals, kNormals},
+      {"--keep", "WHICH", "components: largest, the N largest, volume>=X or area>=X", true,
+       &a.keep},
   };
 }
 

@@ -142,6 +142,27 @@ ExtractOptions resolve_extraction(const SurfaceArgs& args) {
   return extract;
 }
 
+/// Which components remain.
+std::optional<KeepRule> resolve_keep(const SurfaceArgs& args) {
+  if (!args.keep) return std::nullopt;
+  const std::string_view text = *args.keep;
+  if (text == "largest") return KeepRule{};
+  static constexpr std::array<std::pair<std::string_view, KeepRule::By>, 2> kSizes{
+      {{"volume>=", KeepRule::By::volume}, {"area>=", KeepRule::By::area}}};
+  for (const auto& [name, by] : kSizes) {
+    if (!text.starts_with(name)) continue;
+    return KeepRule{.by = by,
+                    .least = parse_number_within("--keep", text.substr(name.size()), 0, kInfinity)};
+  }
+  if (text.empty() || text.find_first_not_of("+0123456789") != std::string_view::npos) {
+    refuse("--keep", fmt::format("unknown value '{}': expected largest, a number, volume>=X or "
+                                 "area>=X",
+                                 text));
+  }
+  const std::int64_t n = parse_integer("--keep", text, 1, std::numeric_limits<std::int64_t>::max());
+  return KeepRule{.n = static_cast<std::uint64_t>(n)};
+}
+
 std::optional<Normals> resolve_normals(const SurfaceArgs& args, const SinkFormat& format) {
   if (!args.normals) return std::nullopt;
   const Normals normals = parse_normals(*args.normals);
@@ -352,6 +373,7 @@ ConvertOptions resolve_conversion(const SourceOptions& source, const SurfaceArgs
   options.surface = resolve_surface(surface, format);
   options.extract = resolve_extraction(surface);
   options.normals = resolve_normals(surface, format);
+  options.keep = resolve_keep(surface);
   options.frame = resolve_frame(out);
   options.sink = resolve_sink(out, format);
   options.memory_bytes = resolve_memory(out.memory);

@@ -162,6 +162,9 @@ EditPlan resolve(const EditArgs& typed) {
   if (options.chunks && options.base.surface.isos.size() > 1) {
     refuse("--iso", "chunks are of one surface, but more than one value is given");
   }
+  if (options.chunks && options.base.keep) {
+    refuse("--keep", "chunks are made one by one, and their components are not known");
+  }
   if (args.undo) {
     options.undo = static_cast<std::size_t>(
         parse_integer("--undo", *args.undo, 0, std::numeric_limits<std::int32_t>::max()));

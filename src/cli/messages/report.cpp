@@ -78,6 +78,15 @@ void add_totals(Json& json, const std::vector<MeshTotals>& totals) {
   json["boundary_edges"] = sum.n_boundary_edges;
   json["nonmanifold_edges"] = 0;  // by the construction of the case table
   json["euler"] = euler;
+  if (totals.front().components) {
+    ComponentCounts components;
+    for (const MeshTotals& one : totals) {
+      components.found += one.components->found;
+      components.kept += one.components->kept;
+    }
+    json["kept_components"] = components.kept;
+    json["dropped_components"] = components.dropped();
+  }
   json["area"] = or_null(sum.area);
   json["volume"] = or_null(sum.volume);
   json["bounds"] = bounds_json(sum.bounds);

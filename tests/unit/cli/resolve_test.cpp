@@ -101,7 +101,24 @@ TEST(Resolve, ReadsIsoLists) {
   EXPECT_EQ(plan.convert.surface.isos[2].value, 99.5);
 }
 
+TEST(Resolve, TakesRulesForComponents) {
+  const auto rule = [](const char* text) {
+    return plan_of({"v.vdb", "-o", "m.ply", "--keep", text}).convert.keep;
+  };
+  EXPECT_EQ(rule("largest"), KeepRule{});
+  EXPECT_EQ(rule("12"), (KeepRule{.n = 12}));
+  EXPECT_EQ(rule("volume>=1.5"), (KeepRule{.by = KeepRule::By::volume, .least = 1.5}));
+  EXPECT_EQ(rule("area>=0"), (KeepRule{.by = KeepRule::By::area}));
+  EXPECT_FALSE(plan_of({"v.vdb", "-o", "m.ply"}).convert.keep);
+}
+
 TEST(Resolve, RefusesValues) {
+  EXPECT_EQ(refused({"--keep", "smallest"}),
+            "--keep: unknown value 'smallest': expected largest, a number, volume>=X or area>=X");
+  EXPECT_EQ(refused({"--keep", "0"}),
+            "--keep: 0 is out of range: expected 1 to 9223372036854775807");
+  EXPECT_EQ(refused({"--keep", "volume>=-1"}), "--keep: -1 is out of range: expected 0 or more");
+  EXPECT_EQ(refused({"--keep", "area>=x"}), "--keep: 'x' is no number");
   EXPECT_EQ(refused({"--iso", "otsi"}),
             "--iso: unknown value 'otsi': expected a number, otsu or pNN");
   EXPECT_EQ(refused({"--iso", "p101"}), "--iso: 101 is out of range: expected 0 to 100");
