@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -106,6 +107,15 @@ struct SliceChoice {
   std::optional<std::array<double, 2>> range{};  ///< PNG: black and white; unset: finite range
 };
 
+/// A vertex attribute that the samples of a volume give: linear between samples; past the border of
+/// a dense volume that of the border, past the leaves and tiles of a sparse one the background. It
+/// is NaN where a sample that counts is. f32, but f64 for samples of 32-bit and wider integers and
+/// of f64.
+struct VolumeAttribute {
+  std::string name;                      ///< see check_attributes()
+  const VolumeReader* volume = nullptr;  ///< no stream; must outlive what samples it
+};
+
 /// What convert() does. Outputs that are volumes or pictures take source, sink, region, memory and
 /// slice only.
 struct ConvertOptions {
@@ -124,6 +134,8 @@ struct ConvertOptions {
   bool skip = true;      ///< leave out samples far from the surface where the source can
   bool dry_run = false;  ///< decide everything, write nothing
   std::optional<SliceChoice> slice{};  ///< a picture of this plane, to a format of pictures
+  /// Beside the volume's own: of volumes in the same world, as their sources place them.
+  std::vector<VolumeAttribute> attributes{};
   /// Called before the work with what it will take; or empty.
   std::function<void(const MemoryNeed&)> on_memory_need{};
 };
@@ -172,6 +184,13 @@ ConvertReport convert(const std::string& input, const std::string& output,
 void write_mesh(const Source& source, const std::optional<Surface>& surface,
                 const std::string& output, const ConvertOptions& options, Progress& progress,
                 const std::stop_token& stop, ConvertReport& report);
+
+/// A reader of the attribute, for RunOptions::attributes: `to_world` is the map of the volume that
+/// is meshed. Errors   input: the other volume's map cannot be inverted; those of its reader.
+/// Memory   a dense volume that is not mapped is read and kept whole; a sparse one takes 64 bytes a
+///          leaf and tile.
+std::unique_ptr<AttributeReader> volume_attribute(const VolumeAttribute& attribute,
+                                                  const Affine& to_world);
 
 struct VolumeOptions {
   SinkOptions sink{};

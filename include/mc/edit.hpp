@@ -220,9 +220,9 @@ class EditStore {
   /// A hash of all stored blocks: equal for equal edits of equal inputs.
   [[nodiscard]] std::uint64_t hash() const;
 
-  /// Paint over the input's materials; null while there is neither. Edits must rest while it is
-  /// read.
-  [[nodiscard]] const MaterialReader* materials() const;
+  /// What the edited volume's vertices carry: the input's attributes, and paint over its materials;
+  /// no materials while there are neither. Edits must rest while they are read.
+  [[nodiscard]] AttributeReaders attributes() const;
 
   /// The edited volume behind the port of its kind, with the materials of paint over the input's:
   /// dense stays dense (what no edit touched is the input's, also its skipping), sparse stays

@@ -107,6 +107,26 @@ enum class SampleType : std::uint8_t { u8, i8, u16, i16, u32, i32, i64, f16, f32
 [[nodiscard]] const char* sample_name(SampleType type);  ///< "u8" ... "f64", as on the command line
 [[nodiscard]] std::optional<SampleType> sample_type_named(std::string_view name);
 
+/// What a vertex carries besides its position and normal: one to four numbers of one type.
+struct AttributeInfo {
+  std::string name;
+  SampleType type = SampleType::f32;
+  std::uint8_t n_components = 1;
+
+  /// Bytes that it takes of each vertex.
+  [[nodiscard]] std::size_t bytes() const { return n_components * sample_size(type); }
+  bool operator==(const AttributeInfo&) const = default;
+};
+
+/// The attribute that is the index of a vertex's material: "material", u16.
+[[nodiscard]] const AttributeInfo& material_attribute();
+/// Refuses attributes that formats cannot tell apart. A name starts with a letter, goes on with
+/// letters, digits and underscores, at most 64 in all, and is not one of position and normal. No
+/// two names are equal without regard to case, nor is one the other's followed by _x, _y, _z or _w.
+/// "material" is material_attribute().
+/// Errors   usage: the name, and what is wrong with it.
+void check_attributes(std::span<const AttributeInfo> attributes);
+
 /// The bits of an IEEE binary16 number; arithmetic happens in float.
 struct Half {
   std::uint16_t bits;
@@ -232,17 +252,23 @@ struct FieldStatistics {
   std::vector<double> percentiles;  ///< in the order asked for
 };
 
-/// The port of materials: which of them is where in a volume.
-class MaterialReader {
+/// The port of vertex attributes: the values of one at places in a volume.
+class AttributeReader {
  public:
-  virtual ~MaterialReader() = default;
-  /// Fills `out` with the material's index at each of `places`, which are lattice coordinates, also
-  /// between samples and beyond them. Returns at how many the index is not what was asked for,
-  /// since that is no number of 16 bits: the nearest one then, or 0 for NaN.
-  /// Threads: may be called from several threads at once. A place's index depends on it alone.
-  virtual std::size_t materials_at(std::span<const Vec3> places,
-                                   std::span<std::uint16_t> out) const = 0;
+  virtual ~AttributeReader() = default;
+  [[nodiscard]] virtual const AttributeInfo& info() const = 0;
+  /// Fills `out` with the value at each of `places`, which are lattice coordinates, also between
+  /// samples and beyond them. Returns at how many places the value is one that the type cannot
+  /// hold: it is clamped then, NaN becomes 0.
+  /// Shapes   out: places.size() * info().bytes(), aligned for every type.
+  /// Threads  may be called from several threads at once. A value depends on its place alone.
+  virtual std::size_t values_at(std::span<const Vec3> places, std::byte* out) const = 0;
 };
+/// Attributes of one volume, which owns them.
+using AttributeReaders = std::span<const AttributeReader* const>;
+/// The one of that kind; null if there is none.
+[[nodiscard]] const AttributeReader* find_attribute(AttributeReaders readers,
+                                                    const AttributeInfo& info);
 
 /// The port of dense volumes.
 class SlabReader {
@@ -269,8 +295,8 @@ class SlabReader {
   [[nodiscard]] virtual bool reads_boxes_cheaply() const { return false; }
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
-  /// The volume's materials; null where it has none.
-  [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
+  /// What the volume's vertices carry; all of them pass check_attributes().
+  [[nodiscard]] virtual AttributeReaders attributes() const { return {}; }
   /// Memory that it holds from plane to plane, pages of mapped files aside.
   [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
 };
@@ -324,8 +350,8 @@ class LeafReader {
   [[nodiscard]] virtual std::array<std::uint64_t, 8> leaf_active(std::size_t n) const = 0;
   /// Every tile whose value differs from the background or that is active, in any order.
   [[nodiscard]] virtual std::span<const Tile> tiles() const = 0;
-  /// The volume's materials; null where it has none.
-  [[nodiscard]] virtual const MaterialReader* materials() const { return nullptr; }
+  /// What the volume's vertices carry; all of them pass check_attributes().
+  [[nodiscard]] virtual AttributeReaders attributes() const { return {}; }
   /// Memory that it holds, pages of mapped files aside.
   [[nodiscard]] virtual std::uint64_t held_bytes() const { return 0; }
 };
@@ -334,8 +360,8 @@ class LeafReader {
 using VolumeReader = std::variant<std::unique_ptr<SlabReader>, std::unique_ptr<LeafReader>,
                                   std::unique_ptr<PlaneStream>>;
 [[nodiscard]] const Volume& volume_of(const VolumeReader& reader);
-/// The volume's materials; null where it has none.
-[[nodiscard]] const MaterialReader* materials_of(const VolumeReader& reader);
+/// The volume's vertex attributes; a stream has none.
+[[nodiscard]] AttributeReaders attributes_of(const VolumeReader& reader);
 [[nodiscard]] inline bool is_dense(const VolumeReader& reader) {
   return !std::holds_alternative<std::unique_ptr<LeafReader>>(reader);
 }

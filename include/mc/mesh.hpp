@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "mc/base.hpp"
 #include "mc/components.hpp"
+#include "mc/field.hpp"
 
 // Triangle meshes, whole (Mesh) or as a stream of chunks (MeshChunk into a MeshSink), and their
 // figures.
@@ -42,21 +44,40 @@ struct MeshTotals {
   /// source skipped because the surface was not near. Facts of the run, not of the mesh.
   std::uint64_t n_asked = 0, n_skipped = 0;
   std::optional<ComponentCounts> components;  ///< only if some were to be left out
-  std::uint64_t n_materials_held = 0;  ///< vertices whose material's number was none of 16 bits
+  /// Of each attribute, in the order of MeshObject::attributes: vertices whose value was clamped,
+  /// as AttributeReader::values_at() counts them.
+  std::vector<std::uint64_t> n_clamped;
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
   [[nodiscard]] std::int64_t euler() const;
+};
+
+/// The values of one attribute at all vertices of a chunk or a mesh.
+struct VertexAttribute {
+  AttributeInfo info;
+  Buffer<std::byte> values;  ///< info.bytes() a vertex, in native byte order
+
+  /// The values as numbers of the C++ type of info.type.
+  template <class T>
+  [[nodiscard]] std::span<const T> values_as() const {
+    return {reinterpret_cast<const T*>(values.data()), values.size() / sizeof(T)};
+  }
+  template <class T>
+  [[nodiscard]] std::span<T> values_as() {
+    return {reinterpret_cast<T*>(values.data()), values.size() / sizeof(T)};
+  }
+  bool operator==(const VertexAttribute&) const = default;
 };
 
 /// Part of a mesh, in order: its vertices follow those of the chunks before it. An index names
 /// vertex index_base + index of the whole mesh, which may lie in another chunk.
 struct MeshChunk {
   std::uint64_t index_base = 0;
-  Buffer<float> positions;          ///< x, y, z each; empty when double precision was asked for
-  Buffer<double> positions_f64;     ///< x, y, z each; only when double precision was asked for
-  Buffer<float> normals;            ///< x, y, z each, unit length; empty without normals
-  Buffer<std::uint16_t> materials;  ///< an index each; empty without materials
-  Buffer<std::uint32_t> indices;    ///< three a triangle, counter-clockwise seen from outside
+  Buffer<float> positions;        ///< x, y, z each; empty when double precision was asked for
+  Buffer<double> positions_f64;   ///< x, y, z each; only when double precision was asked for
+  Buffer<float> normals;          ///< x, y, z each, unit length; empty without normals
+  Buffer<std::uint32_t> indices;  ///< three a triangle, counter-clockwise seen from outside
+  std::vector<VertexAttribute> attributes;  ///< those of MeshObject::attributes, in their order
 
   [[nodiscard]] std::size_t n_vertices() const {
     return (positions.size() + positions_f64.size()) / 3;
@@ -70,7 +91,7 @@ struct MeshObject {
   std::string name;  ///< "iso 0.5", or the grid's name
   double iso = 0;
   bool has_normals = false;
-  bool has_materials = false;
+  std::vector<AttributeInfo> attributes;
   Precision precision = Precision::f32;
   /// Added to every position (the node's translation in glTF); zero unless the sink asked for it.
   Vec3 origin{};
@@ -131,6 +152,7 @@ struct Mesh {
   Buffer<std::array<std::uint32_t, 3>> triangles;
   Buffer<std::array<std::uint64_t, 3>>
       triangles_u64;  ///< instead, if an id needs more than 32 bits
+  std::vector<VertexAttribute> attributes;
 
   [[nodiscard]] std::size_t n_vertices() const { return positions.size() + positions_f64.size(); }
   [[nodiscard]] std::size_t n_triangles() const { return triangles.size() + triangles_u64.size(); }

@@ -46,7 +46,7 @@ struct RunOptions {
   std::uint64_t chunk_bytes = 0;            ///< a chunk at most; 0: chosen from memory_bytes
   std::optional<KeepRule> keep;             ///< components that remain; unset: all. Not for streams
   CountFirst count_first = CountFirst::no;  ///< ignored for streams, which are read once
-  const MaterialReader* materials = nullptr;  ///< of the vertices; null: they have none
+  AttributeReaders attributes;              ///< what vertices carry; pass check_attributes()
   MeshStages stages{};  ///< applied to the mesh on its way to the sink, in order
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
   Formatted formatted;  ///< MeshNeeds::formatted of the sink
@@ -99,7 +99,7 @@ struct ChunkOptions {
 
 /// The surface in a cube of cells: what remains of the whole volume's without the other cells.
 /// Vertices on a face that two chunks share are in both, bit for bit with their normals. A chunk
-/// has materials where one of its vertices has another than 0.
+/// has the attribute material only if it is not 0 at one of its vertices.
 struct SurfaceChunk {
   Index3 id{};     ///< c: the cells that start at samples c n_cells to c n_cells + n_cells - 1
   MeshChunk mesh;  ///< indices count from its own first vertex; empty where no surface is left

@@ -47,7 +47,7 @@ struct IndexRange {
 /// own triangles name of the layer above. Vertices at the outer end of the halo lack triangles;
 /// what a stage makes of them is not used.
 struct MeshWindow {
-  MeshChunk& mesh;  ///< index_base means nothing here, and materials are not there yet
+  MeshChunk& mesh;  ///< index_base means nothing here, and attributes are not there yet
   Vec3 origin{};    ///< MeshObject::origin: positions are relative to it
   IndexRange own_vertices{}, own_triangles{};
 
@@ -75,7 +75,7 @@ struct StageBytes {
 };
 
 /// One step of what is done to a mesh. All answers stay the same during a run. The stages of a run
-/// are applied in order; none sees the materials, which are looked up at the final positions.
+/// are applied in order; none sees the attributes, which are sampled at the final positions.
 class MeshStage {
  public:
   virtual ~MeshStage() = default;

@@ -94,11 +94,12 @@ struct SinkFormat {
   TextForm text = TextForm::none;  ///< optional: SinkOptions::ascii chooses it
   bool precision = false;          ///< SinkOptions::precision chooses float or double coordinates
   bool has_normals = true;         ///< one a vertex
-  bool holds_materials = false;    ///< an index a vertex
-  bool several_objects = false;    ///< in one file
-  bool y_up_metres = false;        ///< coordinates are in metres, +Y is up; else the source's
-  bool one_file = true;            ///< a mesh is one file, and can go to a pipe
-  bool to_memory = false;          ///< SinkOptions::memory
+  /// Whether a vertex can carry such an attribute, converted if need be. Null: none at all.
+  bool (*holds_attribute)(const AttributeInfo& attribute) = nullptr;
+  bool several_objects = false;  ///< in one file
+  bool y_up_metres = false;      ///< coordinates are in metres, +Y is up; else the source's
+  bool one_file = true;          ///< a mesh is one file, and can go to a pipe
+  bool to_memory = false;        ///< SinkOptions::memory
 
   /// Null: holds no volumes.
   std::unique_ptr<VolumeSink> (*open_volume)(const std::string& path,

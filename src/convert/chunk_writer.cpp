@@ -54,7 +54,7 @@ std::uint64_t hash_of(const MeshChunk& mesh) {
   };
   add(mesh.positions);
   add(mesh.normals);
-  add(mesh.materials);
+  for (const VertexAttribute& attribute : mesh.attributes) add(attribute.values);
   add(mesh.indices);
   return h;
 }
@@ -138,7 +138,9 @@ void ChunkWriter::put(const SurfaceChunk& chunk, const std::string& path,
   object.name = fmt::format("chunk {} {} {}", chunk.id[0], chunk.id[1], chunk.id[2]);
   object.iso = options_.extract.iso;
   object.has_normals = options_.extract.normals != Normals::none;
-  object.has_materials = !chunk.mesh.materials.empty();
+  for (const VertexAttribute& attribute : chunk.mesh.attributes) {
+    object.attributes.push_back(attribute.info);
+  }
   object.origin = options_.extract.origin;
   object.n_vertices = chunk.mesh.n_vertices();
   object.n_triangles = chunk.mesh.n_triangles();
@@ -181,10 +183,19 @@ void ChunkWriter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkCha
   const std::uint64_t hash = hash_of(chunk.mesh);
   const auto [held, is_new] = hashes_.try_emplace(chunk.id, hash);
   if (!is_new && std::exchange(held->second, hash) == hash) return;
-  n_materials_held_ += chunk.totals.n_materials_held;
+  count_clamped(chunk.totals.n_clamped);
   const std::uint64_t n_bytes = output_.folder ? write_file(chunk, name) : hand_out(chunk, record);
   changes.updated.push_back({chunk.id, name, n_bytes, chunk.mesh.n_vertices(),
                              chunk.mesh.n_triangles(), chunk.totals.bounds});
+}
+
+/// The first paint puts the material before the attributes that there were.
+void ChunkWriter::count_clamped(const std::vector<std::uint64_t>& of_chunk) {
+  if (n_clamped_.size() < of_chunk.size()) {
+    n_clamped_.insert(n_clamped_.begin(), of_chunk.size() - n_clamped_.size(), 0);
+  }
+  const std::size_t n_before = n_clamped_.size() - of_chunk.size();
+  for (std::size_t n = 0; n < of_chunk.size(); ++n) n_clamped_[n_before + n] += of_chunk[n];
 }
 
 ChunkChanges ChunkWriter::write_all() {

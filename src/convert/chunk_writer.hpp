@@ -33,8 +33,9 @@ class ChunkWriter {
   ChunkChanges write_all();
   /// Those that changed with the samples in the boxes.
   ChunkChanges write_changes(std::span<const IndexBox> dirty, std::uint64_t record);
-  /// Vertices whose material was clamped, in all chunks so far.
-  [[nodiscard]] std::uint64_t n_materials_held() const { return n_materials_held_; }
+  /// Of each of the store's attributes, the last of them last: vertices of all chunks so far whose
+  /// value was clamped.
+  [[nodiscard]] const std::vector<std::uint64_t>& n_clamped() const { return n_clamped_; }
 
  private:
   void look_at_folder(bool force);
@@ -42,6 +43,7 @@ class ChunkWriter {
   std::uint64_t write_file(const SurfaceChunk& chunk, const std::string& name);
   std::uint64_t hand_out(const SurfaceChunk& chunk, std::uint64_t record);
   void put(const SurfaceChunk& chunk, const std::string& path, const SinkOptions& to) const;
+  void count_clamped(const std::vector<std::uint64_t>& of_chunk);
   void remove(const std::string& name) const;
   [[nodiscard]] std::string path_of(const std::string& name) const;
 
@@ -53,7 +55,7 @@ class ChunkWriter {
   std::map<Index3, std::uint64_t> hashes_;  // of the chunks that exist
   std::set<std::string> found_;  // files that another run left, until all chunks are written
   Buffer<std::byte> glb_;        // on its way to the observer
-  std::uint64_t n_materials_held_ = 0;
+  std::vector<std::uint64_t> n_clamped_;
 };
 
 }  // namespace mc::conversion

@@ -12,6 +12,7 @@
 #include "convert/output_probe.hpp"
 #include "convert/provenance.hpp"
 #include "convert/surface_choice.hpp"
+#include "field/volume_attribute.hpp"
 #include "mc/host.hpp"
 
 namespace mc::conversion {
@@ -89,18 +90,37 @@ Normals MeshRun::normals() const {
   return options_.normals.value_or(format_.has_normals ? Normals::gradient : Normals::none);
 }
 
-/// The volume's, where the output can hold them.
-const MaterialReader* MeshRun::materials() const {
-  return format_.holds_materials ? materials_of(reader()) : nullptr;
+/// Those of the volume and of the options.
+std::vector<const AttributeReader*> MeshRun::all_attributes() {
+  const AttributeReaders own = attributes_of(reader());
+  std::vector<const AttributeReader*> all(own.begin(), own.end());
+  std::vector<AttributeInfo> infos;
+  for (const VolumeAttribute& attribute : options_.attributes) {
+    sampled_bytes_ += field::volume_attribute_bytes(*attribute.volume);
+    sampled_.push_back(volume_attribute(attribute, volume().lattice.to_world));
+    all.push_back(sampled_.back().get());
+  }
+  for (const AttributeReader* attribute : all) infos.push_back(attribute->info());
+  check_attributes(infos);
+  return all;
+}
+
+/// Takes all attributes, and notes those that the output cannot hold.
+void MeshRun::choose_attributes() {
+  std::vector<AttributeInfo> left_out;
+  for (const AttributeReader* attribute : all_attributes()) {
+    if (holds(format_, attribute->info())) {
+      attributes_.push_back(attribute);
+    } else {
+      left_out.push_back(attribute->info());
+    }
+  }
+  if (!left_out.empty()) note_left_out(format_, left_out, progress_);
 }
 
 void MeshRun::place_mesh() {
   check_region(reader(), options_.extract.region);
-  if (materials_of(reader()) != nullptr && !format_.holds_materials) {
-    progress_.note(
-        fmt::format("{} holds no materials, so they are left out; write {}", report_.format,
-                    mesh_formats([](const SinkFormat& f) { return f.holds_materials; })));
-  }
+  choose_attributes();
   report_.frame = output_frame(volume(), options_.frame, format_);
   const Affine& to_world = report_.frame->to_world;
   const RoundingLoss loss = rounding_loss(box(), to_world, Precision::f32);
@@ -171,8 +191,8 @@ RunOptions MeshRun::run_options(double iso) const {
   options.object.name = surface_.isos.size() == 1 && !volume().name.empty()
                             ? volume().name
                             : fmt::format("iso {}", value_text(iso, volume().type));
-  options.materials = materials();
-  options.memory_bytes = options_.memory_bytes;
+  options.attributes = attributes_;
+  options.memory_bytes = memory_beside(sampled_bytes_, options_.memory_bytes);
   options.keep = options_.keep;
   options.count_first = counting_of(reader(), stages_);
   options.stages = options_.stages;
@@ -229,10 +249,11 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
                                       totals.n_boundary_edges),
                           Remedy::close_border);
   }
-  if (totals.n_materials_held != 0) {
-    warn_of_clamped_materials(
-        source_->place,
-        fmt::format("{} of {} vertices", totals.n_materials_held, totals.n_vertices), progress_);
+  for (std::size_t n = 0; n < totals.n_clamped.size(); ++n) {
+    if (totals.n_clamped[n] == 0) continue;
+    warn_of_clamped(source_->place, attributes_[n]->info(),
+                    fmt::format("{} of {} vertices", totals.n_clamped[n], totals.n_vertices),
+                    progress_);
   }
   if (totals.components) {
     const ComponentCounts& components = *totals.components;
@@ -274,3 +295,12 @@ void MeshRun::run(const std::optional<Surface>& surface) {
 }
 
 }  // namespace mc::conversion
+
+namespace mc {
+
+std::unique_ptr<AttributeReader> volume_attribute(const VolumeAttribute& attribute,
+                                                  const Affine& to_world) {
+  return field::volume_attribute(*attribute.volume, attribute.name, to_world);
+}
+
+}  // namespace mc

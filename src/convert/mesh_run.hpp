@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stop_token>
@@ -41,7 +43,8 @@ class MeshRun {
     return options_.extract.region.value_or(volume().lattice.box);
   }
   [[nodiscard]] Normals normals() const;
-  [[nodiscard]] const MaterialReader* materials() const;
+  [[nodiscard]] std::vector<const AttributeReader*> all_attributes();
+  void choose_attributes();
   [[nodiscard]] RunOptions run_options(double iso) const;
   [[nodiscard]] SinkOptions sink_options() const;
   [[nodiscard]] FieldStatistics measure(std::span<const double> percentiles);
@@ -58,6 +61,9 @@ class MeshRun {
   ConvertReport& report_;
   std::optional<Source> opened_;
   const Source* source_ = nullptr;
+  std::vector<std::unique_ptr<AttributeReader>> sampled_;  // from options_.attributes
+  std::uint64_t sampled_bytes_ = 0;                        // that these hold
+  std::vector<const AttributeReader*> attributes_;         // those that the output holds
   MeshNeeds needs_;
   Surface surface_;
 };

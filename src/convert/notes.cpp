@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
+#include "convert/mesh_formats.hpp"
+
 namespace mc::conversion {
 
 void note_chosen_grid(const Source& source, const SourceOptions& options, Progress& progress) {
@@ -13,10 +18,38 @@ void note_chosen_grid(const Source& source, const SourceOptions& options, Progre
       Remedy::choose_grid);
 }
 
-void warn_of_clamped_materials(std::string_view place, std::string_view vertices,
-                               Progress& progress) {
-  progress.warn(fmt::format("{}: {} have a material index outside 0..65535: clamped, NaN to 0",
-                            place, vertices));
+bool holds(const SinkFormat& format, const AttributeInfo& attribute) {
+  return format.holds_attribute != nullptr && format.holds_attribute(attribute);
+}
+
+void note_left_out(const SinkFormat& format, std::span<const AttributeInfo> attributes,
+                   Progress& progress) {
+  const std::string others = mesh_formats([&](const SinkFormat& other) {
+    return std::ranges::all_of(attributes,
+                               [&](const AttributeInfo& info) { return holds(other, info); });
+  });
+  if (attributes.size() == 1 && attributes[0] == material_attribute()) {
+    progress.note(
+        fmt::format("{} holds no materials, so they are left out; write {}", format.name, others));
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const AttributeInfo& info : attributes) names.push_back(info.name);
+  const bool one = attributes.size() == 1;
+  progress.note(fmt::format("{} cannot hold the vertex attribute{} {}, so {} left out; write {}",
+                            format.name, one ? "" : "s", fmt::join(names, ", "),
+                            one ? "it is" : "they are", others));
+}
+
+void warn_of_clamped(std::string_view place, const AttributeInfo& attribute,
+                     std::string_view vertices, Progress& progress) {
+  if (attribute == material_attribute()) {
+    progress.warn(fmt::format("{}: {} have a material index outside 0..65535: clamped, NaN to 0",
+                              place, vertices));
+  } else {
+    progress.warn(fmt::format("{}: {} have a value of {} that {} cannot hold: clamped, NaN to 0",
+                              place, vertices, attribute.name, sample_name(attribute.type)));
+  }
 }
 
 void note_isos(const Surface& surface, SampleType type, Progress& progress) {

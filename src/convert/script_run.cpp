@@ -163,10 +163,16 @@ void ScriptRun::write_output(const ScriptOutput& output) {
   observer_.output(output.path, report);
 }
 
-void ScriptRun::warn_of_materials() const {
-  if (!chunks_ || chunks_->n_materials_held() == 0) return;
-  warn_of_clamped_materials(
-      source_->place, fmt::format("{} vertices of chunks", chunks_->n_materials_held()), progress_);
+void ScriptRun::warn_of_clamped_values() const {
+  if (!chunks_) return;
+  const AttributeReaders attributes = store_->attributes();
+  const std::vector<std::uint64_t>& n_clamped = chunks_->n_clamped();
+  for (std::size_t n = 1; n <= std::min(n_clamped.size(), attributes.size()); ++n) {
+    const std::uint64_t n_vertices = n_clamped[n_clamped.size() - n];
+    if (n_vertices == 0) continue;
+    warn_of_clamped(source_->place, attributes[attributes.size() - n]->info(),
+                    fmt::format("{} vertices of chunks", n_vertices), progress_);
+  }
 }
 
 void ScriptRun::run() {
@@ -180,7 +186,7 @@ void ScriptRun::run() {
   if (options_.chunks && options_.chunks->at_writes) {
     report_state("end", [&] { return chunks_->write_changes(store_->take_dirty(), last_number_); });
   }
-  warn_of_materials();
+  warn_of_clamped_values();
   for (const ScriptOutput& output : options_.outputs) write_output(output);
 }
 

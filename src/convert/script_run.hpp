@@ -47,7 +47,7 @@ class ScriptRun {
   void begin();
   template <class Write>
   void report_state(const char* op, Write&& write);
-  void warn_of_materials() const;
+  void warn_of_clamped_values() const;
   void follow_script();
   std::optional<source::ScriptRecord> next_record();
   void do_record(const source::ScriptRecord& record);

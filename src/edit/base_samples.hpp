@@ -30,8 +30,8 @@ class InputSamples {
   [[nodiscard]] IndexBox extent() const { return extent_; }
   [[nodiscard]] const LeafReader* leaves() const { return leaves_; }
   [[nodiscard]] const SlabReader* slabs() const { return slabs_; }
-  [[nodiscard]] const MaterialReader* materials() const {
-    return slabs_ != nullptr ? slabs_->materials() : leaves_->materials();
+  [[nodiscard]] AttributeReaders attributes() const {
+    return slabs_ != nullptr ? slabs_->attributes() : leaves_->attributes();
   }
   [[nodiscard]] std::size_t sample_bytes() const { return sample_bytes_; }
   [[nodiscard]] const Volume& volume() const { return *volume_; }

@@ -29,7 +29,7 @@ class EditedLeaves final : public LeafReader {
   }
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
-  [[nodiscard]] const MaterialReader* materials() const override { return materials_.port(); }
+  [[nodiscard]] AttributeReaders attributes() const override { return materials_.attributes(); }
   [[nodiscard]] Scalar background() const override { return samples_.background(); }
   [[nodiscard]] std::span<const Index3> leaves() const override { return origins_; }
   [[nodiscard]] std::span<const Tile> tiles() const override { return tiles_; }

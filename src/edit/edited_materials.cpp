@@ -8,7 +8,13 @@
 namespace mc::edit {
 
 EditedMaterials::EditedMaterials(const World& world)
-    : world_(world), input_(world.samples.input().materials()) {}
+    : world_(world),
+      input_(find_attribute(world.samples.input().attributes(), material_attribute())),
+      all_{this} {
+  for (const AttributeReader* reader : world.samples.input().attributes()) {
+    if (reader != input_) all_.push_back(reader);
+  }
+}
 
 bool EditedMaterials::paint_at(const Vec3& place, std::uint16_t& out) const {
   Index3 nearest{};
@@ -27,8 +33,8 @@ bool EditedMaterials::paint_at(const Vec3& place, std::uint16_t& out) const {
   return true;
 }
 
-std::size_t EditedMaterials::materials_at(std::span<const Vec3> places,
-                                          std::span<std::uint16_t> out) const {
+std::size_t EditedMaterials::values_at(std::span<const Vec3> places, std::byte* values) const {
+  const std::span out(reinterpret_cast<std::uint16_t*>(values), places.size());
   std::vector<std::size_t> bare;
   std::vector<Vec3> bare_places;
   for (std::size_t n = 0; n < places.size(); ++n) {
@@ -39,9 +45,10 @@ std::size_t EditedMaterials::materials_at(std::span<const Vec3> places,
   }
   if (bare.empty() || input_ == nullptr) return 0;
   std::vector<std::uint16_t> found(bare.size());
-  const std::size_t n_held = input_->materials_at(bare_places, found);
+  const std::size_t n_clamped =
+      input_->values_at(bare_places, reinterpret_cast<std::byte*>(found.data()));
   for (std::size_t n = 0; n < bare.size(); ++n) out[bare[n]] = found[n];
-  return n_held;
+  return n_clamped;
 }
 
 }  // namespace mc::edit

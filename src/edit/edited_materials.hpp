@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "edit/world.hpp"
 #include "mc/field.hpp"
@@ -12,22 +13,27 @@ namespace mc::edit {
 
 /// The materials of a volume under edits: a place whose nearest sample was painted has that paint,
 /// any other what the input says, or 0. Keeps a reference; edits must rest.
-class EditedMaterials final : public MaterialReader {
+class EditedMaterials final : public AttributeReader {
  public:
   explicit EditedMaterials(const World& world);
+  EditedMaterials(const EditedMaterials&) = delete;
+  EditedMaterials& operator=(const EditedMaterials&) = delete;
 
-  /// As a reader hands it on: null where nothing was painted and the input has no materials.
-  [[nodiscard]] const MaterialReader* port() const {
-    return input_ != nullptr || !world_.materials.blocks().empty() ? this : nullptr;
+  /// The attributes of the edited volume: these materials, unless nothing was painted and the input
+  /// has none, then the input's other attributes.
+  [[nodiscard]] AttributeReaders attributes() const {
+    const bool has_any = input_ != nullptr || !world_.materials.blocks().empty();
+    return AttributeReaders(all_).subspan(has_any ? 0 : 1);
   }
-  std::size_t materials_at(std::span<const Vec3> places,
-                           std::span<std::uint16_t> out) const override;
+  [[nodiscard]] const AttributeInfo& info() const override { return material_attribute(); }
+  std::size_t values_at(std::span<const Vec3> places, std::byte* out) const override;
 
  private:
   [[nodiscard]] bool paint_at(const Vec3& place, std::uint16_t& out) const;
 
   const World& world_;
-  const MaterialReader* input_;
+  const AttributeReader* input_;             // the input's materials, if it has any
+  std::vector<const AttributeReader*> all_;  // this, and the input's others
 };
 
 }  // namespace mc::edit

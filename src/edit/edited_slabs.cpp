@@ -106,7 +106,7 @@ class EditedSlabs final : public SlabReader {
   }
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
-  [[nodiscard]] const MaterialReader* materials() const override { return materials_.port(); }
+  [[nodiscard]] AttributeReaders attributes() const override { return materials_.attributes(); }
   [[nodiscard]] bool rereads_cheaply() const override {
     return samples_.filled() || input().rereads_cheaply();
   }

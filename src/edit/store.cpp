@@ -184,7 +184,7 @@ std::uint64_t EditStore::hash() const {
   return h;
 }
 
-const MaterialReader* EditStore::materials() const { return state_->materials.port(); }
+AttributeReaders EditStore::attributes() const { return state_->materials.attributes(); }
 
 VolumeReader EditStore::reader() const { return edit::make_reader(state_->world, volume()); }
 

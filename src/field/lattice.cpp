@@ -89,14 +89,14 @@ const Volume& volume_of(const VolumeReader& reader) {
   return std::visit([](const auto& port) -> const Volume& { return port->volume(); }, reader);
 }
 
-const MaterialReader* materials_of(const VolumeReader& reader) {
+AttributeReaders attributes_of(const VolumeReader& reader) {
   if (const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader)) {
-    return (*dense)->materials();
+    return (*dense)->attributes();
   }
   if (const auto* sparse = std::get_if<std::unique_ptr<LeafReader>>(&reader)) {
-    return (*sparse)->materials();
+    return (*sparse)->attributes();
   }
-  return nullptr;  // a file's samples have none
+  return {};
 }
 
 std::uint64_t held_bytes_of(const VolumeReader& reader) {

@@ -299,6 +299,15 @@ ComponentCounts keep_components(Mesh& mesh, const KeepRule& rule) {
   take(mesh.positions, out.positions);
   take(mesh.positions_f64, out.positions_f64);
   take(mesh.normals, out.normals);
+  for (const VertexAttribute& attribute : mesh.attributes) {
+    VertexAttribute& kept_values = out.attributes.emplace_back();
+    kept_values.info = attribute.info;
+    const std::size_t bytes = attribute.info.bytes();
+    for (std::size_t v = 0; v < id.size(); ++v) {
+      const auto* first = attribute.values.data() + v * bytes;
+      if (remains(v)) kept_values.values.insert(kept_values.values.end(), first, first + bytes);
+    }
+  }
   for (std::size_t t = 0; t < mesh.n_triangles(); ++t) {
     const auto ids = mesh.triangle(t);
     if (remains(ids[0])) out.add_triangle({id[ids[0]], id[ids[1]], id[ids[2]]});

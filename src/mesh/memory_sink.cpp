@@ -31,6 +31,13 @@ void make_room(Buffer<T>& buffer, std::size_t n_more) {
   }
 }
 
+/// Whether there is room for the values of n_more vertices.
+bool has_room(const std::vector<VertexAttribute>& attributes, std::size_t n_more) {
+  return std::ranges::all_of(attributes, [n_more](const VertexAttribute& attribute) {
+    return has_room(attribute.values, n_more * attribute.info.bytes());
+  });
+}
+
 /// What the mesh holds, or held when its memory was last used.
 std::size_t bytes_of(const Mesh& mesh) {
   return mesh.positions.capacity() * sizeof mesh.positions[0] +
@@ -48,7 +55,11 @@ void MemorySink::start(Mesh& mesh) {
 
 void MemorySink::set_slots(std::size_t n_slots) { places_.resize(n_slots); }
 
-void MemorySink::begin_object(const MeshObject& /*object*/) {
+void MemorySink::begin_object(const MeshObject& object) {
+  mesh_->attributes.resize(object.attributes.size());
+  for (std::size_t n = 0; n < object.attributes.size(); ++n) {
+    mesh_->attributes[n].info = object.attributes[n];
+  }
   places_.resize(std::max<std::size_t>(places_.size(), 1));
 }
 
@@ -63,17 +74,24 @@ void MemorySink::place(const MeshChunk& chunk, std::size_t slot) {
                 "extract it in parts");
   }
   if (!has_room(mesh.positions, n_singles) || !has_room(mesh.positions_f64, n_doubles) ||
-      !has_room(mesh.normals, n_normals) || !has_room(mesh.triangles, chunk.n_triangles())) {
+      !has_room(mesh.normals, n_normals) || !has_room(mesh.triangles, chunk.n_triangles()) ||
+      !has_room(mesh.attributes, chunk.n_vertices())) {
     const std::lock_guard alone(moving_);
     make_room(mesh.positions, n_singles);
     make_room(mesh.positions_f64, n_doubles);
     make_room(mesh.normals, n_normals);
     make_room(mesh.triangles, chunk.n_triangles());
+    for (VertexAttribute& attribute : mesh.attributes) {
+      make_room(attribute.values, chunk.n_vertices() * attribute.info.bytes());
+    }
   }
   mesh.positions.resize(mesh.positions.size() + n_singles);
   mesh.positions_f64.resize(mesh.positions_f64.size() + n_doubles);
   mesh.normals.resize(mesh.normals.size() + n_normals);
   mesh.triangles.resize(mesh.triangles.size() + chunk.n_triangles());
+  for (VertexAttribute& attribute : mesh.attributes) {
+    attribute.values.resize(mesh.n_vertices() * attribute.info.bytes());
+  }
 }
 
 void MemorySink::write(const MeshChunk& chunk, std::size_t slot) {
@@ -95,6 +113,11 @@ void MemorySink::write(const MeshChunk& chunk, std::size_t slot) {
   move_words(chunk.indices.data(), chunk.indices.size(),
              static_cast<std::uint32_t>(chunk.index_base), mesh.triangles.data() + triangle,
              stores);
+  for (std::size_t n = 0; n < mesh.attributes.size(); ++n) {
+    VertexAttribute& to = mesh.attributes[n];
+    std::ranges::copy(chunk.attributes[n].values,
+                      to.values.begin() + static_cast<std::ptrdiff_t>(vertex * to.info.bytes()));
+  }
 }
 
 void MemorySink::end_object(const MeshTotals& /*totals*/) {}

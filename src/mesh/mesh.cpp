@@ -30,8 +30,10 @@ void MeshChunk::clear() {
   positions.clear();
   positions_f64.clear();
   normals.clear();
-  materials.clear();
   indices.clear();
+  for (VertexAttribute& attribute : attributes) {
+    attribute.values.clear();
+  }
 }
 
 void Mesh::add_triangle(const std::array<std::uint64_t, 3>& ids) {
@@ -57,6 +59,9 @@ void Mesh::clear() {
   normals.clear();
   triangles.clear();
   triangles_u64.clear();
+  for (VertexAttribute& attribute : attributes) {
+    attribute.values.clear();
+  }
 }
 
 void MeshSink::set_slots(std::size_t /*n_slots*/) {}

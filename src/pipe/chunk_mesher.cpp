@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
@@ -18,7 +19,7 @@
 #include "pipe/chunk_grid.hpp"
 #include "pipe/tasks.hpp"
 #include "pipe/totals_sum.hpp"
-#include "pipe/vertex_materials.hpp"
+#include "pipe/vertex_attributes.hpp"
 
 // A chunk is a part of the volume to the dense engine, whose samples are copied together from
 // wherever the store has them. What is kept from chunk to chunk is scratch, and which chunks have a
@@ -58,6 +59,7 @@ struct ChunkMesher::State {
     Slab slab;
     SurfaceChunk chunk;
     pipe::TaskTotals totals;
+    VertexAttribute unpainted;  ///< the memory of a material that a chunk does without
   };
   struct Counts {
     std::uint64_t n_vertices, n_triangles;
@@ -71,7 +73,7 @@ struct ChunkMesher::State {
   void remake(const Take& take);
   void make(const Index3& id, Slot& slot) const;
   void gather(Slot& slot) const;
-  void give_materials(Slot& slot) const;
+  void give_attributes(Slot& slot) const;
   void hand_out(const SurfaceChunk& chunk, const Take& take);
 
   const EditStore& store;
@@ -80,8 +82,8 @@ struct ChunkMesher::State {
   bool is_sparse;
   pipe::ChunkGrid grid;
   std::vector<Slot> slots;
-  std::vector<Index3> ids;                         ///< to be made
-  std::optional<pipe::VertexMaterials> materials;  ///< of the volume as it is, if it has any
+  std::vector<Index3> ids;                           ///< to be made
+  std::optional<pipe::VertexAttributes> attributes;  ///< of the volume as it is, if it has any
   std::unordered_map<Index3, Counts, field::IndexHash> known;
   ChunkSums sums;
 };
@@ -164,13 +166,21 @@ void ChunkMesher::State::gather(Slot& slot) const {
 }
 
 /// A chunk painted nowhere looks as if nothing were painted anywhere.
-void ChunkMesher::State::give_materials(Slot& slot) const {
-  MeshChunk& mesh = slot.chunk.mesh;
-  mesh.materials.clear();
-  if (!materials) return;
-  slot.chunk.totals.n_materials_held = materials->give(mesh);
-  const auto is_none = [](std::uint16_t material) { return material == 0; };
-  if (std::ranges::all_of(mesh.materials, is_none)) mesh.materials.clear();
+void ChunkMesher::State::give_attributes(Slot& slot) const {
+  std::vector<VertexAttribute>& all = slot.chunk.mesh.attributes;
+  if (!attributes) return all.clear();
+  if (slot.unpainted.info == material_attribute()) {
+    all.insert(all.begin(), std::exchange(slot.unpainted, {}));
+  }
+  attributes->give(slot.chunk.mesh, slot.chunk.totals.n_clamped);
+  const auto material = std::ranges::find(all, material_attribute(), &VertexAttribute::info);
+  const auto is_none = [](std::uint16_t index) { return index == 0; };
+  if (material == all.end() ||
+      !std::ranges::all_of(material->values_as<std::uint16_t>(), is_none)) {
+    return;
+  }
+  slot.unpainted = std::move(*material);
+  all.erase(material);
 }
 
 void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
@@ -183,7 +193,7 @@ void ChunkMesher::State::make(const Index3& id, Slot& slot) const {
   sum.add(slot.totals);
   chunk.id = id;
   chunk.totals = sum.totals(options.extract.origin);
-  give_materials(slot);
+  give_attributes(slot);
 }
 
 /// Enters a chunk that was made, and hands it out if it has a surface or had one.
@@ -210,13 +220,14 @@ void ChunkMesher::State::hand_out(const SurfaceChunk& chunk, const Take& take) {
 void ChunkMesher::State::remake(const Take& take) {
   const std::size_t n_slots = std::min(base::pipeline_slots(), ids.size());
   const Affine& to_world = options.to_world ? *options.to_world : volume.lattice.to_world;
-  materials.reset();
-  if (const MaterialReader* reader = store.materials()) {
-    materials.emplace(*reader, to_world, options.extract.origin);
+  attributes.reset();
+  if (const AttributeReaders readers = store.attributes(); !readers.empty()) {
+    attributes.emplace(readers, to_world, options.extract.origin);
   }
   const Method& method = pipe::method_of(options.extract);
   while (slots.size() < n_slots) {
-    slots.push_back({method.box(volume, to_world, options.extract, grid.part(ids[0])), {}, {}, {}});
+    slots.push_back(
+        {method.box(volume, to_world, options.extract, grid.part(ids[0])), {}, {}, {}, {}});
   }
   struct Run {
     State& state;

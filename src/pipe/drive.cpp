@@ -8,7 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "pipe/totals_sum.hpp"
-#include "pipe/vertex_materials.hpp"
+#include "pipe/vertex_attributes.hpp"
 #include "process/stage_list.hpp"
 
 // A chunk stays with the thread that made it where its turn allows. Between a task and the end of
@@ -40,7 +40,7 @@ struct Drive::Work {
   process::StageList stages;
   MeshObject object;
   TotalsSum sum;
-  std::optional<VertexMaterials> materials;
+  std::optional<VertexAttributes> attributes;
   std::uint64_t n_numbered = 0;  ///< vertices of tasks that have their ids
   bool begun = false;
 
@@ -88,7 +88,12 @@ void Drive::Work::finish(TaskResult& result) const {
     stages.apply(window);
     if (stages.move_vertices()) result.totals.bounds = process::bounds_of(result.chunk);
   }
-  result.totals.n_materials_held = materials ? materials->give(result.chunk) : 0;
+  if (attributes) {
+    attributes->give(result.chunk, result.totals.n_clamped);
+  } else {
+    result.chunk.attributes.clear();
+    result.totals.n_clamped.clear();
+  }
 }
 
 void Drive::Work::number(std::size_t slot) {
@@ -231,12 +236,15 @@ MeshTotals Drive::run(TaskList& tasks, const Room& room, const RunOptions& optio
             options.object,
             TotalsSum(options.extract.measure),
             std::nullopt};
-  if (options.materials != nullptr) {
-    work.materials.emplace(*options.materials, options.to_world.value(), options.extract.origin);
+  if (!options.attributes.empty()) {
+    work.attributes.emplace(options.attributes, options.to_world.value(), options.extract.origin);
   }
   work.object.iso = options.extract.iso;
   work.object.has_normals = options.extract.normals != Normals::none;
-  work.object.has_materials = options.materials != nullptr;
+  work.object.attributes.clear();
+  for (const AttributeReader* reader : options.attributes) {
+    work.object.attributes.push_back(reader->info());
+  }
   work.object.precision = options.extract.precision;
   work.object.origin = options.extract.origin;
   work.stages.describe(work.object);

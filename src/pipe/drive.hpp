@@ -19,7 +19,7 @@ namespace mc::pipe {
 /// Holds the chunks on their way, whose memory is used again from run to run.
 class Drive {
  public:
-  /// Runs all tasks, which have been set to this room; as mc::run(). With materials, the options
+  /// Runs all tasks, which have been set to this room; as mc::run(). With attributes, the options
   /// have the map to the world. `components` go into the totals.
   MeshTotals run(TaskList& tasks, const Room& room, const RunOptions& options, bool allow_empty,
                  const std::optional<ComponentCounts>& components, MeshSink& sink,

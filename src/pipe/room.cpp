@@ -8,6 +8,7 @@
 
 #include "base/parallel.hpp"
 #include "extract/components/selection.hpp"
+#include "mesh/attribute_text.hpp"
 #include "mesh/chunk_room.hpp"
 #include "process/stage_list.hpp"
 
@@ -25,8 +26,18 @@ constexpr std::uint64_t kPiecesAChunk = 2;
 /// A buffer that moves is there with one twice as large.
 constexpr std::uint64_t kMostGrowth = 3;
 
-/// A vertex's material in its chunk, and the most that a sink makes of it.
-constexpr std::uint64_t kMaterialBytes = 2 + 8;
+/// Bytes of a vertex's attributes in its chunk, and the most that a sink makes of them: binary and
+/// aligned, with a colour of four bytes, or text.
+std::uint64_t attribute_bytes(const RunOptions& options) {
+  std::uint64_t sum = 0;
+  for (const AttributeReader* reader : options.attributes) {
+    const AttributeInfo& info = reader->info();
+    const std::uint64_t own = info.bytes();
+    const std::uint64_t text = std::uint64_t{info.n_components} * mesh::usual_digits(info.type);
+    sum += own + std::max((own + 3) / 4 * 4 + 4, text);
+  }
+  return sum;
+}
 
 /// bytes * by / part, without overflow.
 std::uint64_t scaled(std::uint64_t bytes, std::uint64_t by, std::uint64_t part) {
@@ -57,7 +68,7 @@ class Shares {
   Shares(const RunOptions& o, const process::StageList& stages)
       : vertex_(mesh::vertex_bytes(o.extract.precision,
                                    stages.with_normals(o.extract.normals != Normals::none))),
-        made_vertex_(o.formatted.vertex_bytes + (o.materials == nullptr ? 0 : kMaterialBytes)),
+        made_vertex_(o.formatted.vertex_bytes + attribute_bytes(o)),
         made_triangle_(o.formatted.triangle_bytes) {
     if (!stages.need_windows()) {  // else tasks count the scratch, for windows
       made_vertex_ += stages.vertex_bytes();

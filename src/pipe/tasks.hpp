@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -20,17 +21,23 @@
 
 namespace mc::pipe {
 
+/// Adds numbers one by one to a list that is as long, or empty.
+inline void add_each(std::vector<std::uint64_t>& sums, const std::vector<std::uint64_t>& more) {
+  sums.resize(std::max(sums.size(), more.size()));
+  for (std::size_t n = 0; n < more.size(); ++n) sums[n] += more[n];
+}
+
 /// What one task found: of the surface, and on the way to it.
 struct TaskTotals : SurfaceTotals {
   std::uint64_t n_asked = 0, n_skipped = 0;  ///< as in MeshTotals
-  std::uint64_t n_materials_held = 0;
+  std::vector<std::uint64_t> n_clamped;      ///< as in MeshTotals
   std::optional<process::SurfaceSums> sums;  ///< if measured after stages, instead of layers
 
   /// Adds what a piece of the task found; vertices have been counted.
   void add_piece(const TaskTotals& piece) {
     n_triangles += piece.n_triangles;
     n_boundary_edges += piece.n_boundary_edges;
-    n_materials_held += piece.n_materials_held;
+    add_each(n_clamped, piece.n_clamped);
     bounds.include(piece.bounds);
     layers.insert(layers.end(), piece.layers.begin(), piece.layers.end());
   }

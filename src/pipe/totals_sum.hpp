@@ -27,7 +27,7 @@ class TotalsSum {
     totals_.bounds.include(task.bounds);
     totals_.n_asked += task.n_asked;
     totals_.n_skipped += task.n_skipped;
-    totals_.n_materials_held += task.n_materials_held;
+    add_each(totals_.n_clamped, task.n_clamped);
     for (const LayerSum& layer : task.layers) {
       *totals_.area += layer.area;
       *totals_.volume += layer.volume;

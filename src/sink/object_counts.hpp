@@ -22,7 +22,7 @@ struct ObjectCounts {
     assert(object.precision == Precision::f32 ? chunk.positions_f64.empty()
                                               : chunk.positions.empty());
     assert(chunk.normals.size() == (object.has_normals ? 3 * chunk.n_vertices() : 0));
-    assert(chunk.materials.size() == (object.has_materials ? chunk.n_vertices() : 0));
+    assert(chunk.attributes.size() == object.attributes.size());
     n_vertices += chunk.n_vertices();
     n_triangles += chunk.n_triangles();
   }

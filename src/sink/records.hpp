@@ -60,21 +60,24 @@ void make_lines(std::size_t n, const LineBytes& line, Buffer<std::byte>& to, Pri
   to.resize(size);
 }
 
-/// Positions (f32 or f64, as they came), normals where there are some, then what more(i, at) makes
-/// of vertex i, kMore bytes: interleaved records.
-template <std::size_t kMore, class More>
-void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to, More more) {
+/// Positions (f32 or f64, as they came), normals where there are some, then n_more bytes of zeros
+/// for attributes: interleaved records.
+inline void make_vertices(const MeshChunk& chunk, std::size_t n_more, Buffer<std::byte>& to) {
   const auto interleave = [&]<class T, std::size_t kNormal>(
                               const Buffer<T>& positions,
                               std::integral_constant<std::size_t, kNormal>) {
     constexpr std::size_t kPosition = 3 * sizeof(T);
-    make_records(
-        chunk.n_vertices(), kPosition + kNormal + kMore, to,
-        [p = positions.data(), n = chunk.normals.data(), more](std::size_t i, std::byte* at) {
-          std::memcpy(at, p + 3 * i, kPosition);
-          if constexpr (kNormal != 0) std::memcpy(at + kPosition, n + 3 * i, kNormal);
-          more(i, at + kPosition + kNormal);
-        });
+    const auto put = [p = positions.data(), n = chunk.normals.data()](std::size_t i,
+                                                                      std::byte* at) {
+      std::memcpy(at, p + 3 * i, kPosition);
+      if constexpr (kNormal != 0) std::memcpy(at + kPosition, n + 3 * i, kNormal);
+    };
+    if (n_more == 0) return make_records(chunk.n_vertices(), kPosition + kNormal, to, put);
+    make_records(chunk.n_vertices(), kPosition + kNormal + n_more, to,
+                 [put, n_more](std::size_t i, std::byte* at) {
+                   put(i, at);
+                   std::memset(at + kPosition + kNormal, 0, n_more);
+                 });
   };
   const auto with_normals = [&](const auto& positions) {
     if (chunk.normals.empty()) {
@@ -84,11 +87,6 @@ void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to, More more) {
     }
   };
   chunk.positions_f64.empty() ? with_normals(chunk.positions) : with_normals(chunk.positions_f64);
-}
-
-/// Positions, then normals where there are some.
-inline void make_vertices(const MeshChunk& chunk, Buffer<std::byte>& to) {
-  make_vertices<0>(chunk, to, [](std::size_t /*i*/, std::byte* /*at*/) {});
 }
 
 }  // namespace mc::sink

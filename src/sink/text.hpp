@@ -30,6 +30,9 @@ inline char* print_number(char* at, std::uint64_t value) {
   return value < kFastIntegers ? print_small(at, static_cast<std::uint32_t>(value))
                                : std::to_chars(at, at + kMostDigits, value).ptr;
 }
+inline char* print_number(char* at, std::int64_t value) {
+  return std::to_chars(at, at + kMostDigits, value).ptr;
+}
 
 inline char* print_text(char* at, std::string_view text) {
   std::memcpy(at, text.data(), text.size());

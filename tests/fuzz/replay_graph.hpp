@@ -32,15 +32,17 @@ inline std::vector<std::uint32_t> plane_bits(const SlabReader& reader, std::int3
 }
 
 /// Materials at places between the samples, none where the document has none; and how many are
-/// held.
+/// clamped.
 inline std::vector<std::uint32_t> materials_of(const SlabReader& reader) {
-  if (reader.materials() == nullptr) return {};
+  const AttributeReader* materials = find_attribute(reader.attributes(), material_attribute());
+  if (materials == nullptr) return {};
   std::vector<Vec3> places;
   for (int n = 0; n < 300; ++n) places.push_back({n % 9 - 0.3, n % 7 * 0.8, n * 0.017});
   std::vector<std::uint16_t> found(places.size());
-  const std::size_t n_held = reader.materials()->materials_at(places, found);
+  const std::size_t n_clamped =
+      materials->values_at(places, reinterpret_cast<std::byte*>(found.data()));
   std::vector<std::uint32_t> out(found.begin(), found.end());
-  out.push_back(static_cast<std::uint32_t>(n_held));
+  out.push_back(static_cast<std::uint32_t>(n_clamped));
   return out;
 }
 

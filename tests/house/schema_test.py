@@ -25,7 +25,7 @@ CORPUS = ROOT / "data" / "corpus" / "spec"
 BEYOND_A_SCHEMA = re.compile(
     r"there is no node|closes a ring|expand to more|nest deeper|more bytes of samples|past world|"
     r"cannot be read|duplicate key|works out to|cannot be inverted|has no direction|does not rise|"
-    r"is above \\?\"max|two equal numbers|at most half"
+    r"is above \\?\"max|two equal numbers|at most half|cannot be told apart"
 )
 CORPUS_BEYOND = {
     "duplicate-key.json", "expands.json", "far-grid.json", "huge-grid.json", "long-chain.json",

@@ -48,8 +48,9 @@ std::vector<std::uint16_t> materials_of_samples(const EditStore& store, const In
   }
   std::vector<std::uint16_t> out(places.size());
   const VolumeReader reader = store.reader();
-  if (const MaterialReader* materials = materials_of(reader)) {
-    EXPECT_EQ(materials->materials_at(places, out), 0U);
+  if (const AttributeReader* materials =
+          find_attribute(attributes_of(reader), material_attribute())) {
+    EXPECT_EQ(materials->values_at(places, reinterpret_cast<std::byte*>(out.data())), 0U);
   }
   return out;
 }

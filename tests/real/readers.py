@@ -21,7 +21,7 @@ import tempfile
 
 import mesh_files
 
-# Closed and open, with u16 and with u32 indices, with materials.
+# Closed and open, with u16 and with u32 indices, with materials and attributes.
 SPECS = {
     "ball": {
         "grid": {"cells": [24, 24, 24], "spacing": 0.25, "origin": [-3, -3, -3]},
@@ -31,6 +31,12 @@ SPECS = {
         "grid": {"cells": [24, 24, 24], "spacing": 0.25, "origin": [-3, -3, -3]},
         "field": {"type": "sphere", "center": [0, 0, 0], "radius": 2},
         "material": {"type": "select", "control": "y", "a": 2, "b": 300},
+    },
+    "warm": {
+        "grid": {"cells": [24, 24, 24], "spacing": 0.25, "origin": [-3, -3, -3]},
+        "field": {"type": "sphere", "center": [0, 0, 0], "radius": 2},
+        "material": 3,
+        "attributes": {"heat": "x", "cold": {"type": "div", "a": 1, "b": "y"}},
     },
     "hills": {
         "grid": {"cells": [200, 24, 200], "spacing": 1, "origin": [0, 0, 0]},

@@ -21,7 +21,7 @@ struct KeptChunk {
   Buffer<float> positions;
   Buffer<double> positions_f64;
   Buffer<float> normals;
-  Buffer<std::uint16_t> materials;
+  std::vector<VertexAttribute> attributes;
   Buffer<std::uint32_t> indices;
   std::uint64_t n_vertices = 0, n_triangles = 0, n_boundary_edges = 0;
   std::array<double, 6> bounds{};
@@ -30,7 +30,7 @@ struct KeptChunk {
       : positions(c.mesh.positions),
         positions_f64(c.mesh.positions_f64),
         normals(c.mesh.normals),
-        materials(c.mesh.materials),
+        attributes(c.mesh.attributes),
         indices(c.mesh.indices),
         n_vertices(c.totals.n_vertices),
         n_triangles(c.totals.n_triangles),

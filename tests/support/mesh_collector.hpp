@@ -17,7 +17,7 @@ namespace mc::test {
 
 struct Collected {
   Mesh mesh;
-  std::vector<std::uint16_t> materials;
+  std::vector<std::uint16_t> materials;  ///< of mesh.attributes
   MeshTotals totals;
   MeshObject object;
   int n_objects = 0;
@@ -35,7 +35,16 @@ class CollectingSink final : public MeshSink {
     append(chunk.positions, out_.mesh.positions);
     append(chunk.positions_f64, out_.mesh.positions_f64);
     append(chunk.normals, out_.mesh.normals);
-    out_.materials.insert(out_.materials.end(), chunk.materials.begin(), chunk.materials.end());
+    out_.mesh.attributes.resize(chunk.attributes.size());
+    for (std::size_t n = 0; n < chunk.attributes.size(); ++n) {
+      const VertexAttribute& from = chunk.attributes[n];
+      VertexAttribute& to = out_.mesh.attributes[n];
+      to.info = from.info;
+      to.values.insert(to.values.end(), from.values.begin(), from.values.end());
+      if (from.info != material_attribute()) continue;
+      const auto indices = from.values_as<std::uint16_t>();
+      out_.materials.insert(out_.materials.end(), indices.begin(), indices.end());
+    }
     const auto base = static_cast<std::uint32_t>(chunk.index_base);
     for (std::size_t n = 0; n < chunk.indices.size(); n += 3) {
       out_.mesh.triangles.push_back(
@@ -73,7 +82,7 @@ inline Collected collect(const VolumeReader& reader, const ExtractOptions& optio
   run_options.slab_layers = how.slab_layers;
   run_options.count_first = how.count_first ? CountFirst::yes : CountFirst::no;
   run_options.skip = how.skip;
-  run_options.materials = materials_of(reader);
+  run_options.attributes = attributes_of(reader);
   run_options.chunk_bytes = how.chunk_bytes;
   run_options.keep = how.keep;
   Collected out;

@@ -94,6 +94,7 @@ class RandomSpec {
     }
     out += "}, \"field\": " + object(0);
     if (below(3) == 0) out += ", \"material\": " + object(0);
+    if (below(3) == 1) out += ", \"attributes\": {\"heat\": " + object(0) + "}";
     return out + "}";
   }
 

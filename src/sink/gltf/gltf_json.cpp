@@ -6,6 +6,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -72,11 +73,59 @@ int add_material(tinygltf::Model& model, const char* name) {
   return static_cast<int>(at);
 }
 
+int component_of(SampleType type) {
+  switch (type) {
+    case SampleType::u8:
+      return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
+    case SampleType::i8:
+      return TINYGLTF_COMPONENT_TYPE_BYTE;
+    case SampleType::u16:
+      return TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
+    case SampleType::i16:
+      return TINYGLTF_COMPONENT_TYPE_SHORT;
+    default:
+      return TINYGLTF_COMPONENT_TYPE_FLOAT;
+  }
+}
+
+/// "_HEAT": names of an application's own are in capitals after an underscore.
+std::string semantic_of(const AttributeInfo& attribute) {
+  std::string name = "_" + attribute.name;
+  for (char& c : name) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return name;
+}
+
 /// Appends the accessor of an attribute of the vertices.
 void add_attribute(tinygltf::Model& model, tinygltf::Primitive& primitive, const std::string& name,
                    const tinygltf::Accessor& values) {
   primitive.attributes[name] = static_cast<int>(model.accessors.size());
   model.accessors.push_back(values);
+}
+
+/// Appends the accessors of an object's attributes; returns whether a material gives it colours.
+bool add_attributes(tinygltf::Model& model, tinygltf::Primitive& primitive,
+                    const GltfObject& object, int of_view) {
+  constexpr std::array<int, 4> kTypes{TINYGLTF_TYPE_SCALAR, TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3,
+                                      TINYGLTF_TYPE_VEC4};
+  bool is_coloured = false;
+  auto at = static_cast<std::size_t>(object.attributes_at());
+  for (const AttributeInfo& attribute : object.attributes) {
+    add_attribute(model, primitive, semantic_of(attribute),
+                  accessor(of_view, at, object.n_vertices, component_of(attribute.type),
+                           kTypes[attribute.n_components - 1U]));
+    if (attribute == material_attribute()) {
+      tinygltf::Accessor colours =
+          accessor(of_view, at + kColourAt, object.n_vertices,
+                   TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE, TINYGLTF_TYPE_VEC4);
+      colours.normalized = true;
+      add_attribute(model, primitive, "COLOR_0", colours);
+      is_coloured = true;
+    }
+    at += attribute_bytes(attribute);
+  }
+  return is_coloured;
 }
 
 /// Appends views, accessors and primitive of one object, or part of one; returns the mesh.
@@ -108,18 +157,8 @@ int add_mesh(tinygltf::Model& model, const GltfObject& object) {
         model, primitive, "NORMAL",
         accessor(views, 12, object.n_vertices, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3));
   }
-  if (object.has_materials) {
-    const auto at = static_cast<std::size_t>(object.material_at());
-    add_attribute(model, primitive, "_MATERIAL",
-                  accessor(views, at, object.n_vertices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
-                           TINYGLTF_TYPE_SCALAR));
-    tinygltf::Accessor colours =
-        accessor(views, at + 4, object.n_vertices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
-                 TINYGLTF_TYPE_VEC4);
-    colours.normalized = true;
-    add_attribute(model, primitive, "COLOR_0", colours);
-  }
-  primitive.material = add_material(model, object.has_materials ? kColoured : kPlain);
+  const bool is_coloured = add_attributes(model, primitive, object, views);
+  primitive.material = add_material(model, is_coloured ? kColoured : kPlain);
   primitive.mode = TINYGLTF_MODE_TRIANGLES;
   if (!object.continues) model.meshes.emplace_back();
   model.meshes.back().primitives.push_back(primitive);
@@ -157,6 +196,16 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
 }
 
 }  // namespace
+
+bool becomes_float(SampleType type) {
+  return type != SampleType::f32 && component_of(type) == TINYGLTF_COMPONENT_TYPE_FLOAT;
+}
+
+std::size_t attribute_bytes(const AttributeInfo& attribute) {
+  if (attribute == material_attribute()) return kColourAt + 4;
+  const std::size_t each = becomes_float(attribute.type) ? 4 : sample_size(attribute.type);
+  return (attribute.n_components * each + 3) / 4 * 4;
+}
 
 std::string gltf_json(std::span<const GltfObject> objects, std::span<const GltfBuffer> buffers,
                       std::span<const std::pair<std::string, std::string>> provenance) {

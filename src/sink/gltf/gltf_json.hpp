@@ -14,17 +14,21 @@
 
 namespace mc::sink {
 
-/// A vertex's material: its index, two bytes of nothing, since attributes are aligned to four, and
-/// its colour.
-inline constexpr std::size_t kMaterialBytes = 8;
+/// Bytes of a vertex's attribute, which are a multiple of four; those at its end may be padding. A
+/// material has its colour behind it.
+[[nodiscard]] std::size_t attribute_bytes(const AttributeInfo& attribute);
+/// Where the colour is in a material.
+inline constexpr std::size_t kColourAt = 4;
+/// Whether an attribute's numbers are of a type that glTF does not have: u32, i32, i64, f16, f64.
+[[nodiscard]] bool becomes_float(SampleType type);
 
-/// One object of a buffer, or the part of one: interleaved positions, normals and materials, then
+/// One object of a buffer, or the part of one: interleaved positions, normals and attributes, then
 /// its indices.
 struct GltfObject {
   std::string name;
   Vec3 origin{};
   bool has_normals = false;
-  bool has_materials = false;
+  std::vector<AttributeInfo> attributes;
   std::uint64_t n_vertices = 0, n_indices = 0;
   std::uint64_t vertices_at = 0, indices_at = 0;  ///< bytes from the buffer's start
   std::array<float, 3> lo{}, hi{};                ///< of the positions as stored
@@ -32,9 +36,11 @@ struct GltfObject {
   bool continues = false;                         ///< a further primitive of the object before
 
   /// Bytes from a vertex's start.
-  [[nodiscard]] std::uint64_t material_at() const { return has_normals ? 24 : 12; }
+  [[nodiscard]] std::uint64_t attributes_at() const { return has_normals ? 24 : 12; }
   [[nodiscard]] std::uint64_t vertex_bytes() const {
-    return material_at() + (has_materials ? kMaterialBytes : 0);
+    std::uint64_t sum = attributes_at();
+    for (const AttributeInfo& attribute : attributes) sum += attribute_bytes(attribute);
+    return sum;
   }
   /// The greatest index a type holds is reserved.
   [[nodiscard]] bool has_short_indices() const { return n_vertices <= 0xFFFF; }

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "sink/attribute_columns.hpp"
 #include "sink/gltf/gltf_bins.hpp"
 #include "sink/gltf/gltf_json.hpp"
 #include "sink/gltf/palette.hpp"
@@ -20,7 +21,7 @@
 #include "sink/records.hpp"
 
 // glTF 2.0 (Khronos; ISO/IEC 12113): per object one interleaved view of positions, normals and
-// materials, then its indices. A GLB has its JSON before the buffer, so room for the JSON of one
+// attributes, then its indices. A GLB has its JSON before the buffer, so room for the JSON of one
 // object is kept, filled with spaces, and patched at the end; more objects than that move the
 // buffer up once. The bytes are the same for a file and a stream, with counts known or not, and for
 // any cut into chunks.
@@ -32,6 +33,7 @@ namespace {
 constexpr std::uint64_t kMostGlbBytes = 0xFFFFFFFF;
 constexpr std::uint64_t kMostBinBytes = 0xFFFFFFFC;  // readers count them in 32 bits
 constexpr std::uint64_t kMostVertices = 0xFFFFFFFF;  // index 0xFFFFFFFF is reserved
+constexpr std::uint64_t kMostVertexBytes = 252;      // of a buffer view's byteStride
 constexpr std::size_t kFileHeader = 12, kChunkHeader = 8;
 
 std::uint64_t aligned(std::uint64_t n_bytes) { return (n_bytes + 3) / 4 * 4; }
@@ -68,6 +70,10 @@ class GltfSink final : public MeshSink {
  private:
   void reserve_json(const GltfObject& first);
   void check_limits(const ObjectCounts& counts) const;
+  void check_vertex_bytes(const GltfObject& object) const;
+  void note_rounded(const MeshObject& object) const;
+  void warn_of_not_finite() const;
+  std::uint64_t put_attributes(const MeshChunk& chunk, Buffer<std::byte>& vertices) const;
   void make_indices(const MeshChunk& chunk, Piece& piece) const;
   void take_spooled_indices();
   void shorten_spooled_indices();
@@ -81,6 +87,7 @@ class GltfSink final : public MeshSink {
   struct Slot {
     Piece vertices, indices;
     std::array<float, 3> lo{}, hi{};  // of the chunk's positions
+    std::uint64_t n_not_finite = 0;   // numbers of its attributes
   };
 
   SinkOptions options_;
@@ -94,6 +101,7 @@ class GltfSink final : public MeshSink {
   std::vector<GltfObject> objects_;
   MeshObject object_;
   ObjectCounts counts_;
+  std::uint64_t n_not_finite_ = 0;
   std::optional<SpoolFile> index_spool_;  // u32; unless their place and type are known
   std::optional<Part> vertices_, indices_;
   std::vector<Slot> slots_{1};
@@ -164,6 +172,27 @@ void GltfSink::check_limits(const ObjectCounts& counts) const {
   }
 }
 
+void GltfSink::check_vertex_bytes(const GltfObject& object) const {
+  check_limit(main_.place(), object.vertex_bytes(), "bytes a vertex", "glTF", kMostVertexBytes,
+              "write .ply, or fewer attributes");
+}
+
+/// Says which attributes a float may not hold exactly.
+void GltfSink::note_rounded(const MeshObject& object) const {
+  if (options_.progress == nullptr) return;
+  for (const AttributeInfo& attribute : object.attributes) {
+    if (!becomes_float(attribute.type) || attribute.type == SampleType::f16) continue;
+    options_.progress->warn(main_.place() + ": glTF has no " + sample_name(attribute.type) +
+                            " for vertices, so " + attribute.name + " is rounded to f32");
+  }
+}
+
+void GltfSink::warn_of_not_finite() const {
+  if (n_not_finite_ == 0 || options_.progress == nullptr) return;
+  options_.progress->warn(main_.place() + ": " + std::to_string(n_not_finite_) +
+                          " numbers of attributes are not finite, which glTF forbids: 0 instead");
+}
+
 void GltfSink::begin_object(const MeshObject& object) {
   assert(object.precision == Precision::f32);
   object_ = object;
@@ -172,7 +201,9 @@ void GltfSink::begin_object(const MeshObject& object) {
   made.name = object.name;
   made.origin = object.origin;
   made.has_normals = object.has_normals;
-  made.has_materials = object.has_materials;
+  made.attributes = object.attributes;
+  check_vertex_bytes(made);
+  note_rounded(object);
   made.lo = filled(std::numeric_limits<float>::infinity());
   made.hi = filled(-std::numeric_limits<float>::infinity());
   if (is_glb_ && objects_.empty()) {
@@ -210,6 +241,31 @@ void GltfSink::make_indices(const MeshChunk& chunk, Piece& piece) const {
   piece.take_made();
 }
 
+/// Returns how many numbers are not finite, which the format forbids.
+std::uint64_t GltfSink::put_attributes(const MeshChunk& chunk, Buffer<std::byte>& vertices) const {
+  const GltfObject& object = objects_.back();
+  const auto stride = static_cast<std::size_t>(object.vertex_bytes());
+  std::byte* to = vertices.data() + object.attributes_at();
+  std::uint64_t n_not_finite = 0;
+  for (const VertexAttribute& attribute : chunk.attributes) {
+    const SampleType type = attribute.info.type;
+    put_attribute(attribute, becomes_float(type), to, stride);
+    if (becomes_float(type) || type == SampleType::f32) {
+      n_not_finite += zero_not_finite(chunk.n_vertices(), attribute.info.n_components, to, stride);
+    }
+    if (attribute.info == material_attribute()) {
+      std::byte* colour_at = to + kColourAt;
+      for (const std::uint16_t index : attribute.values_as<std::uint16_t>()) {
+        const std::array<std::uint8_t, 4> colour = colour_of(index);
+        std::memcpy(colour_at, colour.data(), sizeof colour);
+        colour_at += stride;
+      }
+    }
+    to += attribute_bytes(attribute.info);
+  }
+  return n_not_finite;
+}
+
 void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
   Slot& s = slots_[slot];
   auto lo = filled(std::numeric_limits<float>::infinity());  // local: they stay in registers
@@ -223,17 +279,10 @@ void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
   }
   s.lo = lo;
   s.hi = hi;
-  if (object_.has_materials) {
-    make_vertices<kMaterialBytes>(chunk, s.vertices.made,
-                                  [m = chunk.materials.data()](std::size_t i, std::byte* at) {
-                                    const std::array<std::uint16_t, 2> padded{m[i], 0};
-                                    const std::array<std::uint8_t, 4> colour = colour_of(m[i]);
-                                    std::memcpy(at, padded.data(), sizeof padded);
-                                    std::memcpy(at + sizeof padded, colour.data(), sizeof colour);
-                                  });
-    s.vertices.take_made();
-  } else if (object_.has_normals) {
-    make_vertices(chunk, s.vertices.made);
+  if (object_.has_normals || !chunk.attributes.empty()) {
+    const GltfObject& object = objects_.back();
+    make_vertices(chunk, object.vertex_bytes() - object.attributes_at(), s.vertices.made);
+    s.n_not_finite = put_attributes(chunk, s.vertices.made);
     s.vertices.take_made();
   } else {
     s.vertices.take(chunk.positions);
@@ -250,6 +299,7 @@ void GltfSink::place(const MeshChunk& chunk, std::size_t slot) {
     object.lo[a] = std::min(object.lo[a], s.lo[a]);
     object.hi[a] = std::max(object.hi[a], s.hi[a]);
   }
+  n_not_finite_ += s.n_not_finite;
   vertices_->place(s.vertices);
   indices_->place(s.indices);
 }
@@ -341,6 +391,7 @@ void GltfSink::finish_gltf() {
 }
 
 void GltfSink::finish() {
+  warn_of_not_finite();
   if (is_glb_) {
     finish_glb();
   } else {

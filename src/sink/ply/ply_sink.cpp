@@ -6,6 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "field/attributes.hpp"
+#include "mesh/attribute_text.hpp"
+#include "sink/attribute_columns.hpp"
 #include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
@@ -27,12 +30,60 @@ constexpr std::size_t kNormalBytes = 12;
 
 using Ids = std::array<std::uint32_t, 3>;
 
-/// Of the text form, with normals; and with a material, which is none of the usual.
+/// Of the text form, with normals.
 constexpr LineBytes vertex_line(Precision precision) {
-  return {2 * kMostTriple + kMostDigits + 3,
+  return {2 * kMostTriple + 2,
           (precision == Precision::f64 ? kMostTriple : kFloatTriple) + kFloatTriple + 2};
 }
+LineBytes vertex_line(const MeshObject& object) {
+  LineBytes line = vertex_line(object.precision);
+  for (const AttributeInfo& attribute : object.attributes) {
+    line.most += attribute.n_components * (kMostDigits + 1);
+    line.usual += attribute.n_components * mesh::usual_digits(attribute.type);
+  }
+  return line;
+}
 constexpr LineBytes kFaceLine{kMostTriple + 3, kIdTriple + 3};
+
+/// The type of an attribute's properties. PLY has no halves, which floats hold exactly.
+SampleType stored_type(const AttributeInfo& attribute) {
+  return attribute.type == SampleType::f16 ? SampleType::f32 : attribute.type;
+}
+
+std::size_t stored_bytes(const AttributeInfo& attribute) {
+  return attribute.n_components * sample_size(stored_type(attribute));
+}
+
+const char* property_type(SampleType type) {
+  switch (type) {
+    case SampleType::u8:
+      return "uchar";
+    case SampleType::i8:
+      return "char";
+    case SampleType::u16:
+      return "ushort";
+    case SampleType::i16:
+      return "short";
+    case SampleType::u32:
+      return "uint";
+    case SampleType::i32:
+      return "int";
+    case SampleType::f64:
+      return "double";
+    default:
+      return "float";
+  }
+}
+
+/// "property float heat\n".
+std::string properties_of(const AttributeInfo& attribute) {
+  std::string text;
+  for (std::size_t c = 0; c < attribute.n_components; ++c) {
+    text += std::string("property ") + property_type(stored_type(attribute)) + " " +
+            field::component_name(attribute, c) + "\n";
+  }
+  return text;
+}
 
 constexpr std::size_t position_bytes(Precision precision) {
   return precision == Precision::f64 ? 24 : 12;
@@ -63,6 +114,7 @@ class PlySink final : public MeshSink {
  private:
   [[nodiscard]] std::string header(const ObjectCounts& counts) const;
   [[nodiscard]] std::string unpadded_header(const ObjectCounts& counts) const;
+  [[nodiscard]] std::size_t attribute_bytes() const;
   [[nodiscard]] std::size_t vertex_bytes() const;
   void check_vertices(std::uint64_t n) const;
   void make_vertex_piece(const MeshChunk& chunk, Piece& piece) const;
@@ -85,9 +137,15 @@ class PlySink final : public MeshSink {
   std::vector<Slot> slots_{1};
 };
 
+std::size_t PlySink::attribute_bytes() const {
+  std::size_t sum = 0;
+  for (const AttributeInfo& attribute : object_.attributes) sum += stored_bytes(attribute);
+  return sum;
+}
+
 std::size_t PlySink::vertex_bytes() const {
   return position_bytes(object_.precision) + (object_.has_normals ? kNormalBytes : 0) +
-         (object_.has_materials ? sizeof(std::uint16_t) : 0);
+         attribute_bytes();
 }
 
 void PlySink::check_vertices(std::uint64_t n) const {
@@ -109,8 +167,8 @@ std::string PlySink::unpadded_header(const ObjectCounts& counts) const {
   if (object_.has_normals) {
     text += "property float nx\nproperty float ny\nproperty float nz\n";
   }
-  if (object_.has_materials) {
-    text += "property ushort material\n";
+  for (const AttributeInfo& attribute : object_.attributes) {
+    text += properties_of(attribute);
   }
   text += "element face " + std::to_string(counts.n_triangles) + "\nproperty list uchar ";
   text += counts.n_vertices > limits_.most_int_vertices ? "uint" : "int";
@@ -135,6 +193,13 @@ void PlySink::begin_object(const MeshObject& object) {
   if (begun_) {
     refuse_second_object(kPlyFormat, out_.place());
   }
+  for (const AttributeInfo& attribute : object.attributes) {
+    if (ply_holds(attribute)) continue;
+    throw Error(ErrorKind::usage, out_.place(),
+                "PLY has no " + std::string(sample_name(attribute.type)) + " for the attribute " +
+                    attribute.name,
+                "write .glb");
+  }
   object_ = object;
   begun_ = true;
   check_vertices(object.n_vertices.value_or(0));
@@ -153,16 +218,15 @@ void PlySink::begin_object(const MeshObject& object) {
 }
 
 void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const {
-  make_lines(chunk.n_vertices(), vertex_line(object_.precision), to, [&](std::size_t i, char* at) {
+  make_lines(chunk.n_vertices(), vertex_line(object_), to, [&](std::size_t i, char* at) {
     at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
                                              : print_triple(at, &chunk.positions[3 * i]);
     if (object_.has_normals) {
       *at++ = ' ';
       at = print_triple(at, &chunk.normals[3 * i]);
     }
-    if (object_.has_materials) {
-      *at++ = ' ';
-      at = print_number(at, std::uint64_t{chunk.materials[i]});
+    for (const VertexAttribute& attribute : chunk.attributes) {
+      at = print_attribute(at, attribute, i);
     }
     *at++ = '\n';
     return at;
@@ -173,14 +237,13 @@ void PlySink::make_vertex_piece(const MeshChunk& chunk, Piece& piece) const {
   if (options_.ascii) {
     make_vertex_lines(chunk, piece.made);
     piece.take_made();
-  } else if (object_.has_materials) {
-    make_vertices<sizeof(std::uint16_t)>(
-        chunk, piece.made, [m = chunk.materials.data()](std::size_t i, std::byte* at) {
-          std::memcpy(at, m + i, sizeof *m);
-        });
-    piece.take_made();
-  } else if (object_.has_normals) {
-    make_vertices(chunk, piece.made);
+  } else if (object_.has_normals || !chunk.attributes.empty()) {
+    make_vertices(chunk, attribute_bytes(), piece.made);
+    std::byte* to = piece.made.data() + vertex_bytes() - attribute_bytes();
+    for (const VertexAttribute& attribute : chunk.attributes) {
+      put_attribute(attribute, attribute.info.type == SampleType::f16, to, vertex_bytes());
+      to += stored_bytes(attribute.info);
+    }
     piece.take_made();
   } else if (object_.precision == Precision::f64) {
     piece.take(chunk.positions_f64);

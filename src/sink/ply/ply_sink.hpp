@@ -12,6 +12,8 @@ namespace mc::sink {
 /// PLY, binary little endian or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options);
 MeshNeeds ply_needs(const SinkOptions& options, bool f32_moves);
+/// Readers of PLY know no integers of 64 bits.
+inline bool ply_holds(const AttributeInfo& attribute) { return attribute.type != SampleType::i64; }
 
 inline constexpr SinkFormat kPlyFormat{.name = "ply",
                                        .display = "PLY",
@@ -20,7 +22,7 @@ inline constexpr SinkFormat kPlyFormat{.name = "ply",
                                        .needs = ply_needs,
                                        .text = TextForm::optional,
                                        .precision = true,
-                                       .holds_materials = true};
+                                       .holds_attribute = ply_holds};
 
 /// How far the indices of PLY reach.
 struct PlyLimits {

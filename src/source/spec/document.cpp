@@ -5,11 +5,14 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "base/checked.hpp"
+#include "field/attributes.hpp"
 #include "source/json/object_reader.hpp"
 #include "source/spec/nodes.hpp"
 #include "source/spec/spec.hpp"
+#include "source/spec/spec_attributes.hpp"
 
 // The frame of an mc-volume document: header, grid, convention; the nodes are nodes.cpp's.
 
@@ -112,6 +115,43 @@ GraphField compile(const JsonDocument& document, const Graph& graph, NodeId root
   }
 }
 
+/// A node whose value vertices carry.
+struct AttributeNode {
+  AttributeInfo info;
+  NodeId node;
+  const JsonValue* at;
+};
+
+void load_attributes(const JsonDocument& document, const JsonValue& named, NodeLoader& nodes,
+                     std::vector<AttributeNode>& out) {
+  if (named.kind != JsonKind::object) {
+    document.fault(named, as_found(named) + ": expected an object of named nodes");
+    return;
+  }
+  std::vector<AttributeInfo> before;
+  for (const JsonMember& member : named.members) {
+    if (is_ignored_key(member.key)) continue;
+    const AttributeInfo info{.name = member.key};
+    const std::string fault = field::attribute_fault(info, before);
+    if (!fault.empty()) document.fault(member.value, fault);
+    before.push_back(info);
+    out.push_back({info, nodes.load(member.value), &member.value});
+  }
+}
+
+/// The keys "material" and "attributes".
+std::vector<AttributeNode> read_attributes(const JsonDocument& document, ObjectReader& keys,
+                                           NodeLoader& nodes) {
+  std::vector<AttributeNode> out;
+  if (const JsonValue* material = keys.optional("material")) {
+    out.push_back({material_attribute(), nodes.load(*material), material});
+  }
+  if (const JsonValue* named = keys.optional("attributes")) {
+    load_attributes(document, *named, nodes, out);
+  }
+  return out;
+}
+
 }  // namespace
 
 SpecDocument load_spec(const std::string& place, std::string_view text, const SpecNesting& within) {
@@ -137,16 +177,17 @@ SpecDocument load_spec(const std::string& place, std::string_view text, const Sp
   NodeLoader nodes(document, keys.optional("nodes"), settings, files);
   const JsonValue* field = keys.required("field");
   const NodeId top = field == nullptr ? NodeId{} : nodes.load(*field);
-  const JsonValue* material = keys.optional("material");
-  const NodeId material_top = material == nullptr ? NodeId{} : nodes.load(*material);
+  const std::vector<AttributeNode> attributes = read_attributes(document, keys, nodes);
   nodes.load_unused();
   keys.finish();
   faults.throw_if_any();
 
   SpecDocument spec{volume_of_grid(grid), grid.origin, grid.spacing,
-                    compile(document, nodes.graph(), top, *field), std::nullopt};
-  if (material != nullptr) {
-    spec.material = compile(document, nodes.graph(), material_top, *material);
+                    compile(document, nodes.graph(), top, *field)};
+  for (const AttributeNode& attribute : attributes) {
+    spec.attributes.push_back(field_attribute(
+        attribute.info, compile(document, nodes.graph(), attribute.node, *attribute.at),
+        grid.origin, grid.spacing));
   }
   spec.volume.cls = settings.convention == Convention::density ? VolumeClass::density_spec
                                                                : VolumeClass::sdf_spec;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "mc/field.hpp"
 #include "mc/graph.hpp"
@@ -17,8 +18,8 @@ struct SpecDocument {
   Vec3 origin{};
   Vec3 spacing{};
   GraphField field;
-  std::optional<GraphField> material;  ///< its value is an index
-  std::uint64_t data_bytes = 0;        ///< of pictures and volumes that nodes read
+  std::vector<std::unique_ptr<AttributeReader>> attributes{};  ///< of its vertices
+  std::uint64_t data_bytes = 0;  ///< of pictures and volumes that nodes read
 };
 
 /// Errors   usage, with every fault of the document; those of SpecFiles.

@@ -23,22 +23,14 @@ namespace mc::source {
 
 namespace {
 
-/// The index that a node's value names, and whether it is another number.
-std::pair<std::uint16_t, bool> index_of(float value) {
-  constexpr float kMost = 65535;
-  const float rounded = std::nearbyint(value);
-  if (rounded >= 0 && rounded <= kMost) return {static_cast<std::uint16_t>(rounded), false};
-  return {static_cast<std::uint16_t>(rounded > kMost ? kMost : 0), true};
-}
-
-class SpecReader final : public SlabReader, private MaterialReader {
+class SpecReader final : public SlabReader {
  public:
-  explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {}
+  explicit SpecReader(SpecDocument spec) : spec_(std::move(spec)) {
+    for (const auto& attribute : spec_.attributes) attributes_.push_back(attribute.get());
+  }
 
   [[nodiscard]] const Volume& volume() const override { return spec_.volume; }
-  [[nodiscard]] const MaterialReader* materials() const override {
-    return spec_.material ? this : nullptr;
-  }
+  [[nodiscard]] AttributeReaders attributes() const override { return attributes_; }
   [[nodiscard]] bool rereads_cheaply() const override { return false; }
   [[nodiscard]] std::uint64_t held_bytes() const override { return spec_.data_bytes; }
 
@@ -62,25 +54,6 @@ class SpecReader final : public SlabReader, private MaterialReader {
   }
 
  private:
-  std::size_t materials_at(std::span<const Vec3> places,
-                           std::span<std::uint16_t> out) const override {
-    std::vector<std::array<float, 3>> world(places.size());
-    for (std::size_t n = 0; n < places.size(); ++n) {
-      for (std::size_t a = 0; a < 3; ++a) {
-        world[n][a] = static_cast<float>(spec_.origin[a] + places[n][a] * spec_.spacing[a]);
-      }
-    }
-    std::vector<float> values(places.size());
-    spec_.material->sample_places(world, values);
-    std::size_t n_held = 0;
-    for (std::size_t n = 0; n < values.size(); ++n) {
-      const auto [index, held] = index_of(values[n]);
-      out[n] = index;
-      n_held += held ? 1 : 0;
-    }
-    return n_held;
-  }
-
   [[nodiscard]] View3<float> allocate(std::int32_t k0, std::int32_t k1, Slab& out) const {
     const IndexBox planes = planes_of(spec_.volume.lattice.box, k0, k1);
     out.allocate(planes, sizeof(float));
@@ -91,6 +64,7 @@ class SpecReader final : public SlabReader, private MaterialReader {
   }
 
   SpecDocument spec_;
+  std::vector<const AttributeReader*> attributes_;  // the document's
 };
 
 /// Whether a JSON object begins there.

@@ -48,6 +48,18 @@ int main() {
   print(report, smooth.name());
   std::cout << "from " << report.totals[0].bounds.lo[0] << " to " << report.totals[0].bounds.hi[0]
             << '\n';
+  options.stages = {};
+  // Vertices carry what another volume says where they are: here, how dense the dots are.
+  const mc::Source dots =
+      mc::open_source(std::array<std::string, 1>{"two.txt"}, options.source, mc::silent_progress());
+  options.attributes = {{"density", &dots.reader}};
+  options.sink.ascii = true;
+  mc::convert("two.txt", "two.ply", options);
+  std::ifstream ply("two.ply");
+  for (std::string line; std::getline(ply, line);) {
+    if (line == "property float density") std::cout << "with density\n";
+  }
+  std::remove("two.ply");
   std::remove("two.txt");
   std::remove("two.off");
 }

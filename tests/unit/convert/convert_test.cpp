@@ -65,6 +65,31 @@ TEST(Convert, AMeshOfAnOctahedron) {
   EXPECT_EQ(read_mesh(output).normals.size(), 6U);
 }
 
+TEST(Convert, AttributesOfOtherVolumes) {
+  const Folder folder;
+  const Source heat = test::open({folder.file(
+      "heat.json", R"({"format":"mc-volume","version":1,"field":"x","grid":{"cells":[2,1,1],)"
+                   R"("spacing":2,"origin":[0,0,0]}})")});
+  ConvertOptions options = dot_options();
+  options.sink.ascii = true;
+  options.normals = Normals::none;
+  options.attributes = {{"heat", &heat.reader}};
+  const std::string output = folder.path("dot.ply");
+  convert(write_dot(folder), output, options);
+  const std::string text = test::read_bytes(output);
+  EXPECT_NE(text.find("property float z\nproperty float heat\nelement face"), std::string::npos);
+  EXPECT_NE(text.find("\n2 2 1.5 2\n"), std::string::npos);  // vertices on both sides along z
+  EXPECT_NE(text.find("\n1.5 2 2 1.5\n"), std::string::npos);
+  EXPECT_NE(text.find("\n2.5 2 2 2.5\n"), std::string::npos);
+
+  Notes notes;
+  convert(std::vector{write_dot(folder)}, folder.path("dot.obj"), options, notes, {});
+  EXPECT_EQ(notes.notes.front(),
+            "obj cannot hold the vertex attribute heat, so it is left out; write ply, glb or gltf");
+  options.attributes = {{"heat", &heat.reader}, {"nx", &heat.reader}};
+  EXPECT_THROW(convert(write_dot(folder), folder.path("other.ply"), options), Error);
+}
+
 TEST(Convert, NormalsByWhatTheFormatHolds) {
   const Folder folder;
   const std::string input = write_dot(folder);

@@ -85,8 +85,12 @@ TEST(MeshComponents, DropVerticesWithoutTriangles) {
   Mesh mesh;
   mesh.positions.push_back({9, 9, 9});
   add_cube(mesh, 0, 1);
+  mesh.attributes.push_back({.info = {"number", SampleType::u8, 1}, .values = {}});
+  for (int v = 0; v < 9; ++v) mesh.attributes[0].values.push_back(std::byte(v));
   EXPECT_EQ(find_components(mesh).of_vertex[0], MeshComponents::kNone);
   keep_components(mesh, {});
+  ASSERT_EQ(mesh.attributes[0].values.size(), 8U);
+  EXPECT_EQ(mesh.attributes[0].values[0], std::byte{1});
   EXPECT_EQ(mesh.n_vertices(), 8U);
   EXPECT_EQ(mesh.triangle(0)[0], 0U);
 }

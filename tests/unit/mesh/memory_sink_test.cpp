@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -85,6 +86,39 @@ TEST(MemorySink, StoresDoublesOnlyIfChunksHaveThem) {
     EXPECT_EQ(mesh.position(2), (Vec3{2, 2, 2}));
     EXPECT_EQ(mesh.normals.size(), 4U);
   }
+}
+
+TEST(MemorySink, StoresAttributes) {
+  Mesh mesh;
+  MemorySink sink;
+  sink.start(mesh);
+  MeshObject object;
+  object.attributes = {{"kind", SampleType::u8}, {"flow", SampleType::f64, 2}};
+  sink.set_slots(2);
+  sink.begin_object(object);
+  std::array<MeshChunk, 2> chunks{chunk_of(2, 1, 1), chunk_of(1, 1, 2)};
+  std::uint8_t next = 0;
+  for (MeshChunk& chunk : chunks) {
+    for (const AttributeInfo& info : object.attributes) {
+      chunk.attributes.push_back({info, Buffer<std::byte>(chunk.n_vertices() * info.bytes())});
+    }
+    for (std::uint8_t& kind : chunk.attributes[0].values_as<std::uint8_t>()) kind = ++next;
+    for (double& flow : chunk.attributes[1].values_as<double>()) flow = ++next;
+  }
+  sink.place(chunks[0], 0);
+  sink.place(chunks[1], 1);
+  sink.write(chunks[1], 1);
+  sink.write(chunks[0], 0);
+  sink.end_object({});
+  sink.finish();
+  ASSERT_EQ(mesh.attributes.size(), 2U);
+  EXPECT_EQ(mesh.attributes[1].info, object.attributes[1]);
+  const auto kinds = mesh.attributes[0].values_as<std::uint8_t>();
+  const auto flows = mesh.attributes[1].values_as<double>();
+  EXPECT_EQ(std::vector(kinds.begin(), kinds.end()), (std::vector<std::uint8_t>{1, 2, 7}));
+  EXPECT_EQ(std::vector(flows.begin(), flows.end()), (std::vector<double>{3, 4, 5, 6, 8, 9}));
+  mesh.clear();
+  EXPECT_TRUE(mesh.attributes[0].values.empty());
 }
 
 TEST(MemorySink, KeepsWhatIsWrittenWhenItMoves) {

@@ -153,7 +153,8 @@ Painted painted(const ChunkCollector::Chunks& chunks) {
   for (const auto& [id, chunk] : chunks) {
     for (std::size_t v = 0; v < chunk.n_vertices; ++v) {
       const float* p = &chunk.positions[3 * v];
-      out[{p[0], p[1], p[2]}] = chunk.materials.empty() ? 0 : chunk.materials[v];
+      out[{p[0], p[1], p[2]}] =
+          chunk.attributes.empty() ? 0 : chunk.attributes[0].values_as<std::uint16_t>()[v];
     }
   }
   return out;
@@ -183,7 +184,7 @@ TEST(ChunkMesher, ChunksHaveTheMaterialsOfTheWholeMesh) {
   EXPECT_EQ(painted(kept.chunks()), painted(collect(store.reader(), options.extract)));
   EXPECT_FALSE(kept.chunks() == bare);
   const auto n_painted = std::ranges::count_if(
-      kept.chunks(), [](const auto& chunk) { return !chunk.second.materials.empty(); });
+      kept.chunks(), [](const auto& chunk) { return !chunk.second.attributes.empty(); });
   EXPECT_EQ(n_painted, 4);
   store.undo();
   mesher.update(store.take_dirty(), kept.take());

@@ -74,10 +74,11 @@ TEST(Run, TellsItsNeedBeforeTheWork) {
 }
 
 /// The material of a place is the nearest sample's i; every place with j > 20 has none.
-class MaterialsAlongI final : public MaterialReader {
+class MaterialsAlongI final : public AttributeReader {
  public:
-  std::size_t materials_at(std::span<const Vec3> places,
-                           std::span<std::uint16_t> out) const override {
+  [[nodiscard]] const AttributeInfo& info() const override { return material_attribute(); }
+  std::size_t values_at(std::span<const Vec3> places, std::byte* values) const override {
+    auto* out = reinterpret_cast<std::uint16_t*>(values);
     std::size_t n_held = 0;
     for (std::size_t n = 0; n < places.size(); ++n) {
       out[n] = static_cast<std::uint16_t>(places[n][0] + 0.5);
@@ -90,20 +91,21 @@ class MaterialsAlongI final : public MaterialReader {
 TEST(Run, GivesVerticesTheMaterialsOfTheirPlaceInTheLattice) {
   const VolumeReader reader = sheets(20);
   const MaterialsAlongI materials;
+  const std::array<const AttributeReader*, 1> attributes{&materials};
   for (const bool exact : {false, true}) {
     RunOptions options;
     options.extract.iso = 0.5;
     options.extract.precision = exact ? Precision::f64 : Precision::f32;
     options.extract.origin = {7, 8, 9};
     options.to_world = Affine{{0, 0, 3, 100, -2, 0, 0, 200, 0, 4, 0, 300}};  // (k, i, j) of i, j, k
-    options.materials = &materials;
+    options.attributes = attributes;
     options.slab_layers = 3;
     test::Collected out;
     test::CollectingSink sink(out);
     const MeshTotals totals = run(reader, options, false, sink, silent_progress(), {});
-    EXPECT_TRUE(out.object.has_materials);
+    EXPECT_EQ(out.object.attributes, std::vector{material_attribute()});
     ASSERT_EQ(out.materials.size(), totals.n_vertices);
-    EXPECT_EQ(totals.n_materials_held, totals.n_vertices / 40 * 19);  // j of 21 to 39
+    EXPECT_EQ(totals.n_clamped.at(0), totals.n_vertices / 40 * 19);  // j of 21 to 39
     for (std::size_t v = 0; v < out.materials.size(); ++v) {
       const double y = exact ? out.mesh.positions_f64[v][1] : double{out.mesh.positions[v][1]};
       EXPECT_EQ(out.materials[v], (200 - (y + 8)) / 2);
@@ -113,9 +115,10 @@ TEST(Run, GivesVerticesTheMaterialsOfTheirPlaceInTheLattice) {
 
 TEST(Run, RefusesMaterialsWhereVerticesHaveNoPlaceInTheLattice) {
   const MaterialsAlongI materials;
+  const std::array<const AttributeReader*, 1> attributes{&materials};
   RunOptions options;
   options.to_world = Affine{{1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0}};
-  options.materials = &materials;
+  options.attributes = attributes;
   test::Collected out;
   test::CollectingSink sink(out);
   EXPECT_THROW(run(sheets(20), options, false, sink, silent_progress(), {}), Error);

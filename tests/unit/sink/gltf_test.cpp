@@ -164,6 +164,97 @@ TEST(Glb, MaterialsAreIndicesAndColours) {
   EXPECT_NE(at<std::uint32_t>(data, 32 + 28), at<std::uint32_t>(data, 2 * 32 + 28));  // 7 is not
 }
 
+/// Keeps what is warned of.
+class Warnings final : public Progress {
+ public:
+  void begin(std::string_view, std::uint64_t, std::string_view) override {}
+  void advance(std::uint64_t) override {}
+  void note(std::string_view) override {}
+  void warn(std::string_view text) override { all.emplace_back(text); }
+  std::vector<std::string> all;
+};
+
+TEST(Glb, AttributesAreAlignedAndInCapitals) {
+  const Tetrahedron mesh{
+      .has_normals = true,
+      .has_materials = true,
+      .attributes = {{"kind", SampleType::u8, 3}, {"heat"}, {"rank", SampleType::u32, 2}}};
+  Warnings warnings;
+  SinkOptions options = glb();
+  options.progress = &warnings;
+  const std::string bytes = written(mesh, options, {});
+  const tinygltf::Model model = read_glb(bytes);
+  const tinygltf::Primitive& primitive = model.meshes[0].primitives[0];
+  EXPECT_EQ(primitive.attributes.size(), 7U);
+  const auto accessor = [&](const char* name) {
+    return model.accessors[static_cast<std::size_t>(primitive.attributes.at(name))];
+  };
+  EXPECT_EQ(accessor("_MATERIAL").byteOffset, 24U);
+  const tinygltf::Accessor kind = accessor("_KIND");
+  EXPECT_EQ(kind.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE);
+  EXPECT_EQ(kind.type, TINYGLTF_TYPE_VEC3);
+  EXPECT_EQ(kind.byteOffset, 32U);
+  const tinygltf::Accessor heat = accessor("_HEAT");
+  EXPECT_EQ(heat.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT);
+  EXPECT_EQ(heat.type, TINYGLTF_TYPE_SCALAR);
+  EXPECT_EQ(heat.byteOffset, 36U);
+  const tinygltf::Accessor rank = accessor("_RANK");
+  EXPECT_EQ(rank.componentType, TINYGLTF_COMPONENT_TYPE_FLOAT);
+  EXPECT_EQ(rank.type, TINYGLTF_TYPE_VEC2);
+  const auto& view = model.bufferViews[static_cast<std::size_t>(rank.bufferView)];
+  ASSERT_EQ(view.byteStride, 48U);
+  const unsigned char* vertex = model.buffers[0].data.data() + view.byteOffset + 2 * 48;
+  EXPECT_EQ(at<std::uint32_t>(vertex, 32), 0x00040302U);  // 2, 3, 4 and padding
+  EXPECT_EQ(at<float>(vertex, 36), 2.F);
+  EXPECT_EQ(at<float>(vertex, 44), 3.F);
+  ASSERT_EQ(warnings.all.size(), 1U);
+  EXPECT_TRUE(warnings.all[0].ends_with("glTF has no u32 for vertices, so rank is rounded to f32"));
+  for (const Way& way : all_ways()) EXPECT_TRUE(written(mesh, glb(), way) == bytes);
+}
+
+TEST(Glb, NumbersThatAreNotFiniteBecomeZero) {
+  Warnings warnings;
+  SinkOptions options = glb();
+  options.progress = &warnings;
+  const TemporaryFolder folder;
+  MeshObject object;
+  object.attributes = {{"heat"}};
+  MeshChunk chunk;
+  chunk.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  chunk.indices = {0, 1, 2};
+  chunk.attributes = {{object.attributes[0], Buffer<std::byte>(12)}};
+  const auto heat = chunk.attributes[0].values_as<float>();
+  heat[0] = std::numeric_limits<float>::quiet_NaN();
+  heat[1] = 5;
+  heat[2] = -std::numeric_limits<float>::infinity();
+  const auto sink = open_mesh_sink(folder / "a.glb", options);
+  sink->begin_object(object);
+  sink->put(chunk);
+  sink->end_object({});
+  sink->finish();
+  const tinygltf::Model model = read_glb(read_all(folder / "a.glb"));
+  const unsigned char* data = model.buffers[0].data.data();
+  EXPECT_EQ(at<float>(data, 12), 0.F);
+  EXPECT_EQ(at<float>(data, 16 + 12), 5.F);
+  EXPECT_EQ(at<float>(data, 32 + 12), 0.F);
+  ASSERT_EQ(warnings.all.size(), 1U);
+  EXPECT_TRUE(warnings.all[0].ends_with(
+      "2 numbers of attributes are not finite, which glTF forbids: 0 instead"));
+}
+
+TEST(Glb, AVertexHas252BytesAtMost) {
+  const TemporaryFolder folder;
+  MeshObject object;
+  for (int n = 0; n < 16; ++n) {
+    object.attributes.push_back({"a" + std::to_string(n), SampleType::f32, 4});
+  }
+  const auto sink = open_mesh_sink(folder / "a.glb", glb());
+  EXPECT_EQ(
+      error_text([&] { sink->begin_object(object); }, ErrorKind::limit),
+      folder / "a.glb" +
+          ": 268 bytes a vertex, but glTF holds at most 252; write .ply, or fewer attributes");
+}
+
 TEST(Glb, EveryWayGivesTheSameBytes) {
   for (const std::size_t n_objects : {1U, 2U, 5U}) {
     const Tetrahedron mesh{.has_normals = n_objects == 2, .has_materials = n_objects > 1};

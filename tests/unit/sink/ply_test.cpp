@@ -85,6 +85,43 @@ TEST(Ply, MaterialsAreTheLastPropertyOfAVertex) {
   EXPECT_EQ(at<std::uint16_t>(bare, bare.find("end_header\n") + 11 + 2 * 14 + 12), 8);
 }
 
+TEST(Ply, AttributesAreProperties) {
+  const Tetrahedron mesh{.has_materials = true,
+                         .attributes = {{"heat"},
+                                        {"flow", SampleType::f16, 3},
+                                        {"mark", SampleType::i8},
+                                        {"rank", SampleType::u32, 2}}};
+  const std::string text = written(mesh, ply(true), {});
+  EXPECT_NE(text.find("property ushort material\nproperty float heat\nproperty float flow_x\n"
+                      "property float flow_y\nproperty float flow_z\nproperty char mark\n"
+                      "property uint rank_x\nproperty uint rank_y\nelement face 4\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("\n1.5 0 0 7 1 1 1.5 2 1 1 2\n0 1 0 8 2 2 2.5 3 2 2 3\n"), std::string::npos);
+  const std::string bytes = written(mesh, ply(), {});
+  const std::size_t data = bytes.find("end_header\n") + 11;
+  constexpr std::size_t kVertex = 12 + 2 + 4 + 12 + 1 + 8;
+  ASSERT_EQ(bytes.size(), data + 4 * kVertex + 4 * 13);
+  EXPECT_EQ(at<std::uint16_t>(bytes, data + kVertex + 12), 7);
+  EXPECT_EQ(at<float>(bytes, data + kVertex + 14), 1.F);
+  EXPECT_EQ(at<float>(bytes, data + kVertex + 22), 1.5F);
+  EXPECT_EQ(at<std::int8_t>(bytes, data + 3 * kVertex + 30), 3);
+  EXPECT_EQ(at<std::uint32_t>(bytes, data + 3 * kVertex + 35), 4U);
+  for (const Way& way : all_ways()) EXPECT_EQ(written(mesh, ply(), way), bytes);
+}
+
+TEST(Ply, HoldsAllAttributesButLongIntegers) {
+  const SinkFormat& format = *find_sink_format("ply");
+  EXPECT_TRUE(format.holds_attribute({"heat", SampleType::f64, 4}));
+  EXPECT_FALSE(format.holds_attribute({"heat", SampleType::i64}));
+  EXPECT_NE(error_text(
+                [] {
+                  written({.attributes = {{"heat", SampleType::i64}}}, ply(), {});
+                },
+                ErrorKind::usage)
+                .find("PLY has no i64 for the attribute heat; write .glb"),
+            std::string::npos);
+}
+
 TEST(Ply, EveryWayGivesTheSameBytes) {
   for (const bool ascii : {false, true}) {
     for (const bool normals : {false, true}) {

@@ -5,6 +5,9 @@
 
 #include <array>
 #include <thread>
+#include <type_traits>
+
+#include "field/visit_type.hpp"
 
 namespace mc::test {
 
@@ -18,12 +21,31 @@ constexpr std::array<std::uint16_t, 4> kMaterials{0, 7, 8, 65535};
 constexpr std::array<std::array<std::uint32_t, 3>, 4> kTriangles{
     {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
 
+/// The values of vertices [v0, v1).
+VertexAttribute values_of(const AttributeInfo& info, std::size_t v0, std::size_t v1) {
+  VertexAttribute made{info, Buffer<std::byte>((v1 - v0) * info.bytes())};
+  field::visit_type(info.type, [&]<class T>(field::TypeTag<T>) {
+    T* to = made.values_as<T>().data();
+    for (std::size_t v = v0; v < v1; ++v) {
+      for (std::size_t n = 0; n < info.n_components; ++n) {
+        if constexpr (std::is_same_v<T, Half>) {
+          *to++ = to_half(static_cast<float>(v) + 0.5F * static_cast<float>(n));
+        } else if constexpr (std::is_floating_point_v<T>) {
+          *to++ = static_cast<T>(v) + T{0.5} * static_cast<T>(n);
+        } else {
+          *to++ = static_cast<T>(info == material_attribute() ? kMaterials[v] : v + n);
+        }
+      }
+    }
+  });
+  return made;
+}
+
 MeshChunk part(const Tetrahedron& mesh, std::size_t v0, std::size_t v1, std::size_t t0,
                std::size_t t1, std::uint32_t base) {
   MeshChunk chunk;
   chunk.index_base = base;
   for (std::size_t v = v0; v < v1; ++v) {
-    if (mesh.has_materials) chunk.materials.push_back(kMaterials[v]);
     for (std::size_t a = 0; a < 3; ++a) {
       if (mesh.precision == Precision::f64) {
         chunk.positions_f64.push_back(kCorners[v][a]);
@@ -35,6 +57,9 @@ MeshChunk part(const Tetrahedron& mesh, std::size_t v0, std::size_t v1, std::siz
       }
     }
   }
+  for (const AttributeInfo& info : mesh.all_attributes()) {
+    chunk.attributes.push_back(values_of(info, v0, v1));
+  }
   for (std::size_t t = t0; t < t1; ++t) {
     for (const std::uint32_t id : kTriangles[t]) {
       chunk.indices.push_back(id - base);
@@ -45,12 +70,18 @@ MeshChunk part(const Tetrahedron& mesh, std::size_t v0, std::size_t v1, std::siz
 
 }  // namespace
 
+std::vector<AttributeInfo> Tetrahedron::all_attributes() const {
+  std::vector<AttributeInfo> all = attributes;
+  if (has_materials) all.insert(all.begin(), material_attribute());
+  return all;
+}
+
 MeshObject Tetrahedron::object(bool counts, const std::string& name) const {
   MeshObject made;
   made.name = name;
   made.iso = 0.5;
   made.has_normals = has_normals;
-  made.has_materials = has_materials;
+  made.attributes = all_attributes();
   made.precision = precision;
   if (counts) {
     made.n_vertices = 4;

@@ -66,7 +66,10 @@ struct Tetrahedron {
   bool has_normals = false;
   Precision precision = Precision::f32;
   bool has_materials = false;
+  /// Further attributes; number n of vertex v is v + 0.5 n in a floating-point type, else v + n.
+  std::vector<AttributeInfo> attributes{};
 
+  [[nodiscard]] std::vector<AttributeInfo> all_attributes() const;
   [[nodiscard]] MeshObject object(bool counts, const std::string& name = "iso 0.5") const;
   [[nodiscard]] std::vector<MeshChunk> chunks(int cut) const;
   [[nodiscard]] static MeshTotals totals();

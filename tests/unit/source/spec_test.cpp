@@ -68,13 +68,15 @@ TEST(Spec, MaterialIsTheNearestIndex) {
       "v.json",
       document(
           R"("field": "x", "material": {"type": "add", "inputs": ["x", {"type": "div", "a": "y", "b": "z"}]})"));
-  ASSERT_NE(reader->materials(), nullptr);
+  ASSERT_EQ(reader->attributes().size(), 1U);
+  EXPECT_EQ(reader->attributes()[0]->info(), material_attribute());
   const std::vector<Vec3> places{{2.4, 0, 1}, {2.6, 0, 1},   {65535.4, 0, 1}, {-0.4, 0, 1},
                                  {-1, 0, 1},  {70000, 0, 1}, {3, 0, 0},       {3, 1, 0}};
   std::vector<std::uint16_t> out(places.size());
-  EXPECT_EQ(reader->materials()->materials_at(places, out), 4U);
+  EXPECT_EQ(reader->attributes()[0]->values_at(places, reinterpret_cast<std::byte*>(out.data())),
+            4U);
   EXPECT_THAT(out, ElementsAre(2, 3, 65535, 0, 0, 65535, 0, 65535));
-  EXPECT_EQ(open_spec_text("v.json", document(R"("field": "x")"))->materials(), nullptr);
+  EXPECT_TRUE(open_spec_text("v.json", document(R"("field": "x")"))->attributes().empty());
 }
 
 TEST(Spec, MaterialSeesTheWorld) {
@@ -82,7 +84,8 @@ TEST(Spec, MaterialSeesTheWorld) {
       "v.json", R"({"format": "mc-volume", "version": 1, "field": "x", "material": "y",
                     "grid": {"cells": [2, 2, 2], "spacing": [1, 2, 1], "origin": [0, 10, 0]}})");
   std::vector<std::uint16_t> out(1);
-  reader->materials()->materials_at(std::vector<Vec3>{{0, 1.5, 0}}, out);
+  reader->attributes()[0]->values_at(std::vector<Vec3>{{0, 1.5, 0}},
+                                     reinterpret_cast<std::byte*>(out.data()));
   EXPECT_EQ(out[0], 13);
 }
 
