@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <memory>
 #include <queue>
@@ -17,6 +16,7 @@
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_fields.hpp"
+#include "support/same_mesh.hpp"
 
 // Laws of components, over random fields: what remains is the mesh of a field in which every other
 // component is replaced by samples that are not solid. Components come from a plain flood fill of
@@ -137,17 +137,8 @@ std::set<int> kept_by(const KeepRule& rule, const Field<T>& field) {
   return kept;
 }
 
-template <class Row>
-void expect_same_bytes(const Row& got, const Row& want) {
-  ASSERT_EQ(got.size(), want.size());
-  ASSERT_TRUE(got.empty() || std::memcmp(got.data(), want.data(), got.size() * sizeof got[0]) == 0);
-}
-
 void expect_same(const Collected& got, const Collected& want) {
-  expect_same_bytes(got.mesh.positions, want.mesh.positions);
-  expect_same_bytes(got.mesh.positions_f64, want.mesh.positions_f64);
-  expect_same_bytes(got.mesh.normals, want.mesh.normals);
-  expect_same_bytes(got.mesh.triangles, want.mesh.triangles);
+  expect_same_mesh(got, want);
   ASSERT_EQ(got.totals.n_boundary_edges, want.totals.n_boundary_edges);
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
 #include <mutex>
 #include <random>
@@ -14,6 +13,7 @@
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_fields.hpp"
+#include "support/same_mesh.hpp"
 
 // Laws of parts, over random fields, options, cuts and threads: the meshes of the parts, put one
 // after the other, are the mesh of the whole, byte for byte, and a part reads little more than its
@@ -41,38 +41,16 @@ std::vector<LayerRange> random_cuts(const LayerRange& all, std::mt19937_64& rand
   return out;
 }
 
-/// Puts a part's mesh behind those before it.
+/// Puts a part's mesh behind those before it, and adds up all figures.
 void append(const Collected& part, Collected& all) {
-  const auto first = static_cast<std::uint32_t>(all.totals.n_vertices);
-  const auto add = [](const auto& from, auto& to) {
-    to.insert(to.end(), from.begin(), from.end());
-  };
-  add(part.mesh.positions, all.mesh.positions);
-  add(part.mesh.positions_f64, all.mesh.positions_f64);
-  add(part.mesh.normals, all.mesh.normals);
-  for (const auto& t : part.mesh.triangles) {
-    all.mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  all.totals.n_vertices += part.totals.n_vertices;
-  all.totals.n_triangles += part.totals.n_triangles;
+  append_mesh(part, all);
   all.totals.n_boundary_edges += part.totals.n_boundary_edges;
   all.totals.bounds.include(part.totals.bounds);
   all.totals.area = all.totals.area.value_or(0) + part.totals.area.value_or(0);
 }
 
-template <class Row>
-void expect_same_bytes(const Row& got, const Row& want) {
-  ASSERT_EQ(got.size(), want.size());
-  ASSERT_TRUE(got.empty() || std::memcmp(got.data(), want.data(), got.size() * sizeof got[0]) == 0);
-}
-
 void expect_same(const Collected& got, const Collected& want) {
-  expect_same_bytes(got.mesh.positions, want.mesh.positions);
-  expect_same_bytes(got.mesh.positions_f64, want.mesh.positions_f64);
-  expect_same_bytes(got.mesh.normals, want.mesh.normals);
-  expect_same_bytes(got.mesh.triangles, want.mesh.triangles);
-  ASSERT_EQ(got.totals.n_vertices, want.totals.n_vertices);
-  ASSERT_EQ(got.totals.n_triangles, want.totals.n_triangles);
+  expect_same_mesh(got, want);
   ASSERT_EQ(got.totals.n_boundary_edges, want.totals.n_boundary_edges);
   ASSERT_EQ(got.totals.bounds.lo, want.totals.bounds.lo);
   ASSERT_EQ(got.totals.bounds.hi, want.totals.bounds.hi);

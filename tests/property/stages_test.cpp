@@ -15,6 +15,7 @@
 #include "support/mesh_oracle.hpp"
 #include "support/mesh_stages.hpp"
 #include "support/random_fields.hpp"
+#include "support/same_mesh.hpp"
 
 // Laws of stages: the mesh that a run hands out is the one that the stages make of the whole mesh
 // in memory, byte for byte, whatever the threads, the memory and the slabs; and so are its figures.
@@ -58,20 +59,6 @@ Collected whole_with(const VolumeReader& reader, const RunOptions& options) {
   out.totals.n_triangles = mesh.n_triangles();
   out.totals.bounds = process::bounds_of(mesh);
   return out;
-}
-
-template <class Array>
-bool same_bytes(const Array& a, const Array& b) {
-  return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
-}
-
-void expect_same_mesh(const Collected& got, const Collected& want) {
-  EXPECT_TRUE(same_bytes(got.mesh.positions, want.mesh.positions));
-  EXPECT_TRUE(same_bytes(got.mesh.positions_f64, want.mesh.positions_f64));
-  EXPECT_TRUE(same_bytes(got.mesh.normals, want.mesh.normals));
-  EXPECT_EQ(got.mesh.triangles == want.mesh.triangles, true);
-  EXPECT_EQ(got.totals.n_vertices, want.totals.n_vertices);
-  EXPECT_EQ(got.totals.n_triangles, want.totals.n_triangles);
 }
 
 /// Of a mesh in single precision without an origin.
@@ -207,21 +194,6 @@ TEST(Stages, OfASparseMeshAreThoseOfTheWholeMesh) {
   }
 }
 
-void append(const Collected& part, Collected& all) {
-  const auto base = static_cast<std::uint32_t>(all.totals.n_vertices);
-  const auto add = [](const auto& some, auto& to) {
-    to.insert(to.end(), some.begin(), some.end());
-  };
-  add(part.mesh.positions, all.mesh.positions);
-  add(part.mesh.positions_f64, all.mesh.positions_f64);
-  add(part.mesh.normals, all.mesh.normals);
-  for (const auto& t : part.mesh.triangles) {
-    all.mesh.triangles.push_back({base + t[0], base + t[1], base + t[2]});
-  }
-  all.totals.n_vertices += part.totals.n_vertices;
-  all.totals.n_triangles += part.totals.n_triangles;
-}
-
 void compare_parts(const VolumeReader& reader, RunOptions options) {
   const Collected want = whole_with(reader, options);
   const LayerRange all = part_layers(reader, options);
@@ -231,7 +203,7 @@ void compare_parts(const VolumeReader& reader, RunOptions options) {
                                  LayerRange{all.first + third, all.first + third + 1},
                                  LayerRange{all.first + third + 1, all.last}}) {
     options.extract.part = part;
-    append(run_with(reader, options, 2), joined);
+    append_mesh(run_with(reader, options, 2), joined);
   }
   expect_same_mesh(joined, want);
 }
