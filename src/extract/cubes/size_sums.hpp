@@ -39,6 +39,7 @@ class SizeUnit {
     }
     const int bits = std::clamp(60 - std::ilogb(std::max(n_cells, 1.0)), 8, 40);
     unit_ = std::ldexp(cell, -bits);
+    per_unit_ = 1 / unit_;
   }
 
   [[nodiscard]] std::int64_t of(const std::array<Vec3, 3>& p) const {
@@ -50,8 +51,8 @@ class SizeUnit {
                             : (((p[0][0] - apex_[0]) * n[0] + (p[0][1] - apex_[1]) * n[1]) +
                                (p[0][2] - apex_[2]) * n[2]) /
                                   6;
-    const double units = size / unit_;
-    return std::abs(units) < 0x1p62 ? std::llround(units) : 0;
+    const double units = size * per_unit_;
+    return std::abs(units) < 0x1p62 ? static_cast<std::int64_t>(units) : 0;
   }
   [[nodiscard]] double size_of(std::uint64_t sum) const {
     return static_cast<double>(static_cast<std::int64_t>(sum)) * unit_;
@@ -60,7 +61,7 @@ class SizeUnit {
 
  private:
   Vec3 apex_;
-  double unit_ = 1;
+  double unit_ = 1, per_unit_ = 1;
   SizeKind kind_;
 };
 
