@@ -2,20 +2,13 @@
 #include "process/figures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
+
+#include "base/vectors.hpp"
 
 namespace mc::process {
 
 namespace {
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Vec3& a, const Vec3& b) { return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 template <class T>
 void include_all(const Buffer<T>& positions, Bounds& bounds) {
@@ -66,7 +59,7 @@ SurfaceSums own_sums(const MeshWindow& window, const Vec3& apex) {
     const Vec3 b = window.position(window.mesh.indices[3 * t + 1]);
     const Vec3 c = window.position(window.mesh.indices[3 * t + 2]);
     const Vec3 normal = cross(minus(b, a), minus(c, a));
-    sums.area.add(0.5 * std::sqrt(dot(normal, normal)));
+    sums.area.add(0.5 * length(normal));
     sums.volume.add(dot(minus(a, apex), normal) / 6);
   }
   return sums;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
+#include "base/vectors.hpp"
 #include "extract/cubes/edge_vertex.hpp"
 #include "mc/components.hpp"
 
@@ -42,15 +43,10 @@ class SizeUnit {
     per_unit_ = 1 / unit_;
   }
 
+  /// A triangle with an infinite position has no size.
   [[nodiscard]] std::int64_t of(const std::array<Vec3, 3>& p) const {
-    const Vec3 a{p[1][0] - p[0][0], p[1][1] - p[0][1], p[1][2] - p[0][2]};
-    const Vec3 b{p[2][0] - p[0][0], p[2][1] - p[0][1], p[2][2] - p[0][2]};
-    const Vec3 n{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double size = kind_ == SizeKind::area
-                            ? std::sqrt((n[0] * n[0] + n[1] * n[1]) + n[2] * n[2]) / 2
-                            : (((p[0][0] - apex_[0]) * n[0] + (p[0][1] - apex_[1]) * n[1]) +
-                               (p[0][2] - apex_[2]) * n[2]) /
-                                  6;
+    const Vec3 n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    const double size = kind_ == SizeKind::area ? length(n) / 2 : dot(minus(p[0], apex_), n) / 6;
     const double units = size * per_unit_;
     return std::abs(units) < 0x1p62 ? static_cast<std::int64_t>(units) : 0;
   }

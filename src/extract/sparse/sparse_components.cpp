@@ -24,49 +24,9 @@ using field::set;
 
 namespace {
 
-constexpr std::uint64_t kColumn7 = kColumn0 << 7;
 /// Nodes of a solid background, each of which has a number: 2^24 of them span 16384 samples along
 /// each axis.
 constexpr std::uint64_t kMaxBackgroundNodes = 1U << 24U;
-
-/// Ones for the first place of each run in a plane of places.
-std::uint64_t run_starts(std::uint64_t plane) { return plane & ~((plane & ~kColumn7) << 1); }
-
-/// Ones for places (x, y) for which (x + dx, y + dy) is one, within the plane.
-std::uint64_t moved(std::uint64_t plane, std::int32_t dx, std::int32_t dy) {
-  if (dx > 0) plane = (plane & ~kColumn0) >> 1;
-  if (dx < 0) plane = (plane & ~kColumn7) << 1;
-  return dy > 0 ? plane >> 8 : dy < 0 ? plane << 8 : plane;
-}
-
-/// Ones for places from which a step (dx, dy) leaves the plane.
-std::uint64_t leaving(std::int32_t dx, std::int32_t dy) {
-  std::uint64_t out = 0;
-  if (dx != 0) out |= dx > 0 ? kColumn7 : kColumn0;
-  if (dy != 0) out |= dy > 0 ? std::uint64_t{0xFF} << 56 : 0xFF;
-  return out;
-}
-
-/// Towards the half of the neighbours that come later in (z, y, x) order, then all others.
-std::vector<Index3> directions_of(Inside inside) {
-  const int reach = inside == Inside::above ? 1 : 2;  // axes that a step may move along: 6, or 18
-  std::vector<Index3> later;
-  for (std::int32_t n = 14; n < 27; ++n) {
-    const Index3 d{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-    if (std::abs(d[0]) + std::abs(d[1]) + std::abs(d[2]) <= reach) later.push_back(d);
-  }
-  const std::size_t n = later.size();
-  for (std::size_t d = 0; d < n; ++d) {
-    later.push_back({-later[d][0], -later[d][1], -later[d][2]});
-  }
-  return later;
-}
-
-Index3 sum_of(const Index3& a, const Index3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-
-Index3 place_of(std::size_t word, int bit) {
-  return {bit & 7, bit >> 3, static_cast<std::int32_t>(word)};
-}
 
 double n_cells_of(const SparsePlan& plan) {
   const IndexBox stored = plan.index().stored_blocks();
@@ -76,23 +36,6 @@ double n_cells_of(const SparsePlan& plan) {
 }
 
 }  // namespace
-
-std::size_t SparseComponents::Cells::find(const Index3& cell) const {
-  const auto found = std::lower_bound(at.begin(), at.end(), cell, comes_before);
-  const bool there = found != at.end() && same(*found, cell);
-  return there ? static_cast<std::size_t>(found - at.begin()) : kNoBlock;
-}
-
-std::uint32_t SparseComponents::Cells::run_at(std::size_t cell, BitIndex place) const {
-  const Mask512& mask = solid[cell];
-  assert(test(mask, place));
-  std::uint32_t run = first[cell];
-  for (std::size_t w = 0; w < place.word; ++w) {
-    run += static_cast<std::uint32_t>(std::popcount(run_starts(mask[w])));
-  }
-  const std::uint64_t up_to = ~std::uint64_t{0} >> (63 - place.bit);
-  return run - 1 + static_cast<std::uint32_t>(std::popcount(run_starts(mask[place.word]) & up_to));
-}
 
 SparseComponents::SparseComponents(const LeafReader& reader, const Affine& to_world,
                                    const ExtractOptions& options, SizeKind kind)
@@ -106,7 +49,7 @@ SparseComponents::SparseComponents(const LeafReader& reader, const Affine& to_wo
             placement_.map(middle_of(options.region.value_or(reader.volume().lattice.box))),
             n_cells_of(plan_)),
       solid_above_(options.inside == Inside::above),
-      directions_(directions_of(options.inside)),
+      joiner_(options.inside),
       tiles_(plan_.index().big_tiles()) {
   list_blocks();
   list_nodes();
@@ -114,8 +57,10 @@ SparseComponents::SparseComponents(const LeafReader& reader, const Affine& to_wo
   number_runs(nodes_);
   first_tile_ = static_cast<std::uint32_t>(parent_.size());
   list_background();
-  join_cells(blocks_, [this](const Index3& block) { return block_number(block); });
-  join_cells(nodes_, [this](const Index3& node) { return node_number(node); });
+  joiner_.join(
+      blocks_, [this](const Index3& block) { return block_number(block); }, parent_);
+  joiner_.join(
+      nodes_, [this](const Index3& node) { return node_number(node); }, parent_);
   join_tiles();
   join_background();
   number_components();
@@ -147,7 +92,7 @@ void SparseComponents::list_nodes() {
   }
 }
 
-void SparseComponents::number_runs(Cells& cells) {
+void SparseComponents::number_runs(SolidCells& cells) {
   for (const Mask512& solid : cells.solid) {
     cells.first.push_back(static_cast<std::uint32_t>(parent_.size()));
     std::size_t n = parent_.size();
@@ -198,11 +143,9 @@ bool SparseComponents::touches_box(const Index3& lo, const Index3& hi) const {
 
 /// The number of what a node belongs to as a whole: a tile, background, or what lies outside.
 std::uint32_t SparseComponents::node_number(const Index3& node) const {
-  const bool outside_solid =
-      plan_.capped() ? options_.border == Border::solid : background_.has_value();
   const Index3 lo{node[0] * 64, node[1] * 64, node[2] * 64};
   if (plan_.capped() && !touches_box(lo, {lo[0] + 63, lo[1] + 63, lo[2] + 63})) {
-    return outside_solid ? outside_ : kNone;
+    return is_solid_outside() ? outside_ : kNone;
   }
   if (const auto tile = plan_.index().big_tile_number(node)) {
     return tiles_[*tile].above == solid_above_ ? first_tile_ + static_cast<std::uint32_t>(*tile)
@@ -218,6 +161,20 @@ std::uint32_t SparseComponents::node_number(const Index3& node) const {
   return first_background_ + static_cast<std::uint32_t>(n);
 }
 
+/// The node of the background that has this number.
+Index3 SparseComponents::background_node(std::uint32_t number) const {
+  const auto at = static_cast<std::int64_t>(number - first_background_);
+  const std::int64_t nx = background_->extent(0), ny = background_->extent(1);
+  return {background_->lo[0] + static_cast<std::int32_t>(at % nx),
+          background_->lo[1] + static_cast<std::int32_t>(at / nx % ny),
+          background_->lo[2] + static_cast<std::int32_t>(at / (nx * ny))};
+}
+
+/// Whether what lies beyond the region, or beyond all that is stored, is solid.
+bool SparseComponents::is_solid_outside() const {
+  return plan_.capped() ? options_.border == Border::solid : background_.has_value();
+}
+
 /// The number of what a block belongs to that has one kind of samples.
 std::uint32_t SparseComponents::block_number(const Index3& block) const {
   const IndexBox samples = field::samples_of(block);
@@ -231,64 +188,6 @@ std::uint32_t SparseComponents::block_number(const Index3& block) const {
   if (n == kNoBlock) return node_number(node);
   const BitIndex place = bit_index(block);
   return test(nodes_.solid[n], place) ? nodes_.run_at(n, place) : kNone;
-}
-
-/// Joins the runs of one cell to each other.
-void SparseComponents::join_within(const Cells& cells, std::size_t n) {
-  const Mask512& solid = cells.solid[n];
-  for (std::size_t d = 0; d < directions_.size() / 2; ++d) {
-    const auto [dx, dy, dz] = directions_[d];
-    if (dy == 0 && dz == 0) continue;  // along a run
-    for (std::size_t z = 0; z + static_cast<std::size_t>(dz) < 8; ++z) {
-      const std::size_t other = z + static_cast<std::size_t>(dz);
-      for_each_bit(run_starts(solid[z] & moved(solid[other], dx, dy)), [&](int bit) {
-        const auto at = static_cast<unsigned>(bit);
-        base::unite_sets(parent_, cells.run_at(n, {z, at}),
-                         cells.run_at(n, {other, static_cast<unsigned>(bit + 8 * dy + dx)}));
-      });
-    }
-  }
-}
-
-/// Joins the runs of all cells, to each other and to what lies beside the cells.
-void SparseComponents::join_cells(const Cells& cells, const Whole& whole) {
-  struct Beside {
-    bool known = false;
-    std::size_t cell = kNoBlock;
-    std::uint32_t number = kNone;  ///< of a cell that is solid as a whole
-  };
-  for (std::size_t n = 0; n < cells.at.size(); ++n) {
-    join_within(cells, n);
-    std::array<Beside, 27> around;
-    const auto beside = [&](const Index3& step) -> const Beside& {
-      Beside& b = around[static_cast<std::size_t>(13 + step[0] + 3 * step[1] + 9 * step[2])];
-      if (!b.known) {
-        const Index3 at = sum_of(cells.at[n], step);
-        b = {true, cells.find(at), kNone};
-        if (b.cell == kNoBlock) b.number = whole(at);
-      }
-      return b;
-    };
-    for (const Index3& d : directions_) {
-      for (std::size_t z = 0; z < 8; ++z) {
-        const bool leaves_z = d[2] != 0 && z == (d[2] > 0 ? 7U : 0U);
-        const std::uint64_t from =
-            cells.solid[n][z] & (leaves_z ? ~std::uint64_t{0} : leaving(d[0], d[1]));
-        for_each_bit(from, [&](int bit) {
-          const Index3 q = sum_of(place_of(z, bit), d);
-          const Beside& b = beside(block_of(q));
-          const BitIndex place = bit_index(q);
-          if (b.cell != kNoBlock) {
-            if (!test(cells.solid[b.cell], place)) return;
-            base::unite_sets(parent_, cells.run_at(n, {z, static_cast<unsigned>(bit)}),
-                             cells.run_at(b.cell, place));
-          } else if (b.number != kNone) {
-            base::unite_sets(parent_, cells.run_at(n, {z, static_cast<unsigned>(bit)}), b.number);
-          }
-        });
-      }
-    }
-  }
 }
 
 /// Joins tiles to the tiles and the background beside them; stored nodes have done so themselves.
@@ -324,7 +223,7 @@ void SparseComponents::join_background() {
         const Index3 node{x, y, z};
         const std::uint32_t number = nodes_.find(node) == kNoBlock ? node_number(node) : kNone;
         if (number == kNone || number < first_background_) continue;
-        for (const Index3& d : directions_) {
+        for (const Index3& d : joiner_.directions()) {
           const Index3 next = sum_of(node, d);
           if (nodes_.find(next) != kNoBlock) continue;
           const std::uint32_t other = node_number(next);
@@ -353,7 +252,7 @@ void SparseComponents::number_components() {
       roots[place[root]].first = sample;
     }
   };
-  const auto add_cells = [&](const Cells& cells, std::int32_t size) {
+  const auto add_cells = [&](const SolidCells& cells, std::int32_t size) {
     for (std::size_t n = 0; n < cells.at.size(); ++n) {
       std::uint32_t run = cells.first[n];
       for (std::size_t z = 0; z < 8; ++z) {
@@ -374,16 +273,10 @@ void SparseComponents::number_components() {
     if (tiles_[t].above == solid_above_) add(first_tile_ + t, samples(tiles_[t].origin));
   }
   for (std::uint32_t n = first_background_; background_ && n < outside_; ++n) {
-    const auto at = static_cast<std::int64_t>(n - first_background_);
-    const std::int64_t nx = background_->extent(0), ny = background_->extent(1);
-    const Index3 node{background_->lo[0] + static_cast<std::int32_t>(at % nx),
-                      background_->lo[1] + static_cast<std::int32_t>(at / nx % ny),
-                      background_->lo[2] + static_cast<std::int32_t>(at / (nx * ny))};
+    const Index3 node = background_node(n);
     if (nodes_.find(node) == kNoBlock && node_number(node) == n) add(n, samples(node));
   }
-  const bool outside_solid =
-      plan_.capped() ? options_.border == Border::solid : background_.has_value();
-  if (outside_solid) add(outside_, {-kReach, -kReach, -kReach});
+  if (is_solid_outside()) add(outside_, {-kReach, -kReach, -kReach});
   std::sort(roots.begin(), roots.end(),
             [](const Root& a, const Root& b) { return comes_before(a.first, b.first); });
   for (std::uint32_t n = 0; n < roots.size(); ++n) place[roots[n].number] = n;
@@ -392,7 +285,7 @@ void SparseComponents::number_components() {
   }
   parent_ = std::move(place);
   sums_.assign(roots.size(), 0);
-  if (outside_solid) unbounded_ = parent_[outside_];
+  if (is_solid_outside()) unbounded_ = parent_[outside_];
 }
 
 template <class T>
@@ -462,7 +355,7 @@ std::vector<double> SparseComponents::sizes() const {
 
 SparseSelection SparseComponents::selection(std::span<const std::uint8_t> kept) const {
   const auto is_dropped = [&](std::uint32_t number) { return kept[parent_[number]] == 0; };
-  const auto dropped_of = [&](const Cells& cells) {
+  const auto dropped_of = [&](const SolidCells& cells) {
     std::vector<SparseSelection::Dropped> out;
     for (std::size_t n = 0; n < cells.at.size(); ++n) {
       Mask512 mask{};
@@ -486,18 +379,13 @@ SparseSelection SparseComponents::selection(std::span<const std::uint8_t> kept) 
   }
   for (std::uint32_t n = first_background_; background_ && n < outside_; ++n) {
     if (parent_[n] == kNone || !is_dropped(n)) continue;
-    const auto at = static_cast<std::int64_t>(n - first_background_);
-    const std::int64_t nx = background_->extent(0), ny = background_->extent(1);
-    tiles.push_back({{background_->lo[0] + static_cast<std::int32_t>(at % nx),
-                      background_->lo[1] + static_cast<std::int32_t>(at / nx % ny),
-                      background_->lo[2] + static_cast<std::int32_t>(at / (nx * ny))},
-                     1});
+    tiles.push_back({background_node(n), 1});
   }
   return {dropped_of(blocks_), std::move(nodes), std::move(tiles)};
 }
 
 std::uint64_t SparseComponents::bytes() const {
-  const auto of_cells = [](const Cells& cells) {
+  const auto of_cells = [](const SolidCells& cells) {
     return cells.at.size() * (sizeof(Index3) + sizeof(Mask512) + sizeof(std::uint32_t));
   };
   // Roots are numbered beside their parents; every cell may lose places.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "extract/components/run_table.hpp"
 #include "extract/components/selection.hpp"
 #include "extract/cubes/size_sums.hpp"
+#include "extract/sparse/solid_cells.hpp"
 #include "extract/sparse/sparse_plan.hpp"
 
 // The components of a sparse volume. Solid samples are joined at two levels by the same word
@@ -43,33 +43,19 @@ class SparseComponents {
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
-  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
-
-  /// Cells of 8x8x8 places, each solid or not: blocks of samples, or nodes of blocks.
-  struct Cells {
-    std::vector<Index3> at;            ///< ordered by (z, y, x)
-    std::vector<Mask512> solid;        ///< of each cell
-    std::vector<std::uint32_t> first;  ///< number of its first run
-
-    [[nodiscard]] std::size_t find(const Index3& cell) const;
-    /// The number of the run that holds a solid place.
-    [[nodiscard]] std::uint32_t run_at(std::size_t cell, field::BitIndex place) const;
-  };
-  class Neighbours;
-  /// What a whole cell without places of its own belongs to: a number, or kNone if it is not solid.
-  using Whole = std::function<std::uint32_t(const Index3&)>;
+  static constexpr std::uint32_t kNone = CellJoiner::kNone;
 
   void list_blocks();
   void list_nodes();
   void list_background();
-  void number_runs(Cells& cells);
-  void join_cells(const Cells& cells, const Whole& whole);
-  void join_within(const Cells& cells, std::size_t n);
+  void number_runs(SolidCells& cells);
   void join_tiles();
   void join_background();
   void number_components();
   [[nodiscard]] std::uint32_t block_number(const Index3& block) const;
   [[nodiscard]] std::uint32_t node_number(const Index3& node) const;
+  [[nodiscard]] Index3 background_node(std::uint32_t number) const;
+  [[nodiscard]] bool is_solid_outside() const;
   [[nodiscard]] bool touches_box(const Index3& lo, const Index3& hi) const;
   template <class T>
   void measure_typed(std::size_t first, std::size_t last, std::vector<RunSize>& out) const;
@@ -82,8 +68,8 @@ class SparseComponents {
   Placement placement_;
   SizeUnit unit_;
   bool solid_above_;
-  std::vector<Index3> directions_;  ///< to the neighbours that a solid sample is connected to
-  Cells blocks_, nodes_;
+  CellJoiner joiner_;
+  SolidCells blocks_, nodes_;
   std::vector<BlockIndex::UniformNodes> tiles_;
   std::uint32_t first_tile_ = 0;
   std::optional<IndexBox> background_;  ///< nodes, if background is solid
