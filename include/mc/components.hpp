@@ -19,12 +19,12 @@ namespace mc {
 struct KeepRule {
   enum class By : std::uint8_t {
     count,   ///< the `n` components of the largest volume
-    volume,  ///< those of at least `least` cubic world units
-    area,    ///< those of at least `least` square world units
+    volume,  ///< those of at least `min_size` cubic world units
+    area,    ///< those of at least `min_size` square world units
   };
   By by = By::count;
   std::uint64_t n = 1;
-  double least = 0;
+  double min_size = 0;
 
   bool operator==(const KeepRule&) const = default;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -14,7 +15,7 @@
 #include "base/vectors.hpp"
 #include "mc/mesh.hpp"
 
-// Components of a mesh, by its triangles alone.
+// Which components remain, and the components of a mesh by its triangles alone.
 //
 //       +-----------------+     A closed shell whose volume is negative bounds a cavity. From its
 //       |  solid          |     point of largest x a ray along +x starts in the solid around the
@@ -28,6 +29,13 @@ namespace mc {
 namespace {
 
 constexpr std::uint32_t kNone = MeshComponents::kNone;
+
+/// Rounds to 20 significant bits.
+double rounded(double size) {
+  constexpr std::uint64_t kDropped = (std::uint64_t{1} << 33U) - 1;  // of 53
+  const auto bits = std::bit_cast<std::uint64_t>(size) + (kDropped + 1) / 2;
+  return std::bit_cast<double>(bits & ~kDropped);
+}
 
 /// What is known of one shell.
 struct Shell {
@@ -215,7 +223,7 @@ void Shells::measure() {
     const Vec3 a = mesh_.position(ids[0]), b = mesh_.position(ids[1]), c = mesh_.position(ids[2]);
     Shell& shell = shells_[shell_of(t)];
     const Vec3 n = cross(minus(b, a), minus(c, a));
-    shell.area += std::sqrt(dot(n, n)) / 2;
+    shell.area += length(n) / 2;
     add_cone(shell, a, b, c);
   }
   const std::vector<BorderEdge> border = border_edges(mesh_);
@@ -276,6 +284,26 @@ MeshComponents Shells::components() const {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> select_components(std::span<const double> sizes, const KeepRule& rule) {
+  std::vector<std::uint8_t> kept(sizes.size(), 0);
+  if (rule.by != KeepRule::By::count) {
+    std::ranges::transform(sizes, kept.begin(), [&](double size) {
+      return static_cast<std::uint8_t>(size >= rule.min_size ? 1 : 0);
+    });
+    return kept;
+  }
+  std::vector<std::size_t> order(sizes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto n = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(rule.n, sizes.size()));
+  const auto is_larger = [&](std::size_t a, std::size_t b) {
+    const double x = rounded(sizes[a]), y = rounded(sizes[b]);
+    return x > y || (x == y && a < b);
+  };
+  std::nth_element(order.begin(), order.begin() + n, order.end(), is_larger);
+  for (auto at = order.begin(); at != order.begin() + n; ++at) kept[*at] = 1;
+  return kept;
+}
 
 MeshComponents find_components(const Mesh& mesh) { return Shells(mesh).components(); }
 

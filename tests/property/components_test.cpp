@@ -10,7 +10,6 @@
 #include <set>
 #include <vector>
 
-#include "field/block.hpp"
 #include "mc/components.hpp"
 #include "mc/pipe.hpp"
 #include "support/memory_readers.hpp"
@@ -131,7 +130,8 @@ std::set<int> kept_by(const KeepRule& rule, const Field<T>& field) {
                    [](const auto& a, const auto& b) { return a.first > b.first * (1 + 2e-6); });
   std::set<int> kept;
   for (std::size_t n = 0; n < sizes.size(); ++n) {
-    const bool keeps = rule.by == KeepRule::By::count ? n < rule.n : sizes[n].first >= rule.least;
+    const bool keeps =
+        rule.by == KeepRule::By::count ? n < rule.n : sizes[n].first >= rule.min_size;
     if (keeps) kept.insert(sizes[n].second);
   }
   return kept;
@@ -160,9 +160,9 @@ KeepRule random_rule(std::uint64_t seed) {
     case 1:
       return {.n = 1 + seed % 5};
     case 2:
-      return {.by = KeepRule::By::volume, .least = 0.7 * static_cast<double>(seed % 11)};
+      return {.by = KeepRule::By::volume, .min_size = 0.7 * static_cast<double>(seed % 11)};
     default:
-      return {.by = KeepRule::By::area, .least = 2.5 * static_cast<double>(seed % 13)};
+      return {.by = KeepRule::By::area, .min_size = 2.5 * static_cast<double>(seed % 13)};
   }
 }
 
@@ -225,23 +225,6 @@ TYPED_TEST(DenseComponents, KeepTheirNormals) {
   }
 }
 
-/// A field of blocks of noise and uniform blocks.
-std::vector<float> blocky_field(Index3 dims, float background, std::uint64_t seed) {
-  std::vector<float> field = random_field<float>(dims, Noise(seed % 4), seed);
-  const float uniform[] = {background, -1, 2};
-  std::size_t at = 0;
-  for (std::int32_t k = 0; k < dims[2]; ++k) {
-    for (std::int32_t j = 0; j < dims[1]; ++j) {
-      for (std::int32_t i = 0; i < dims[0]; ++i, ++at) {
-        const std::uint64_t kind =
-            (field::IndexHash{}({i / 8, j / 8, k / 8}) ^ seed * 0x9E3779B97F4A7C15U) % 5;
-        if (kind < 3) field[at] = uniform[kind];
-      }
-    }
-  }
-  return field;
-}
-
 using Triangle = std::array<std::array<float, 3>, 3>;
 std::multiset<Triangle> triangles_of(const Mesh& mesh) {
   std::multiset<Triangle> out;
@@ -283,7 +266,8 @@ TEST(SparseComponents, AreThoseOfADenseCopy) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const float background = seed % 4 < 2 ? -1.0F : 2.0F;
-    const std::vector<float> samples = blocky_field(dims, background, seed);
+    const std::vector<float> samples =
+        blocky_field<float>(dims, Noise(seed % 4), {background, -1, 2}, seed);
     MemoryLeaves* leaves =
         new MemoryLeaves(samples, dims, origin, background, kSkewed, MemoryLeaves::seeded(seed));
     const VolumeReader sparse = owned(std::unique_ptr<LeafReader>(leaves));

@@ -8,7 +8,6 @@
 #include <set>
 #include <vector>
 
-#include "field/block.hpp"
 #include "mc/pipe.hpp"
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
@@ -117,24 +116,6 @@ TYPED_TEST(DenseLayerParts, PutTogetherAreTheWhole) {
   }
 }
 
-/// A field of blocks of noise and uniform blocks.
-template <class T>
-std::vector<T> blocky_field(Index3 dims, T background, std::uint64_t seed) {
-  std::vector<T> field = random_field<T>(dims, Noise::white, seed);
-  const T uniform[] = {background, field[0], field[1]};
-  std::size_t at = 0;
-  for (std::int32_t k = 0; k < dims[2]; ++k) {
-    for (std::int32_t j = 0; j < dims[1]; ++j) {
-      for (std::int32_t i = 0; i < dims[0]; ++i, ++at) {
-        const std::uint64_t kind =
-            (field::IndexHash{}({i / 8, j / 8, k / 8}) ^ seed * 0x9E3779B97F4A7C15U) % 5;
-        if (kind < 3) field[at] = uniform[kind];
-      }
-    }
-  }
-  return field;
-}
-
 template <class T>
 class SparseLayerParts : public testing::Test {};
 using GridTypes = testing::Types<std::int32_t, float, double>;
@@ -145,9 +126,10 @@ TYPED_TEST(SparseLayerParts, PutTogetherAreTheWhole) {
   for (std::uint64_t seed = 1; seed <= 36; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const auto background = static_cast<TypeParam>(seed % 4 < 2 ? 0 : 5);
-    auto leaves = std::make_unique<MemoryLeaves>(blocky_field<TypeParam>(dims, background, seed),
-                                                 dims, Index3{-16, 0, -24}, background, kSkewed,
-                                                 MemoryLeaves::seeded(seed));
+    const std::vector<TypeParam> noise = random_field<TypeParam>(dims, Noise::white, seed);
+    auto leaves = std::make_unique<MemoryLeaves>(
+        blocky_field<TypeParam>(dims, Noise::white, {background, noise[0], noise[1]}, seed), dims,
+        Index3{-16, 0, -24}, background, kSkewed, MemoryLeaves::seeded(seed));
     if (seed % 3 == 0) leaves->add_tile({{128, 0, -128}, 128, Scalar::of(TypeParam{5}), true});
     const VolumeReader reader = owned(std::unique_ptr<LeafReader>(std::move(leaves)));
     compare_parts(reader, random_options(test_iso<TypeParam>(), {{-9, 3, -17}, {12, 20, 25}}, seed),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -8,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "field/block.hpp"
 #include "field/visit_type.hpp"
 #include "mc/field.hpp"
 
@@ -67,6 +69,24 @@ std::vector<T> random_field(Index3 dims, Noise noise, std::uint64_t seed) {
     }
   }
   return out;
+}
+
+/// A field whose blocks of 8x8x8 are noise or, three of five, one of the uniform values.
+template <class T>
+std::vector<T> blocky_field(Index3 dims, Noise noise, const std::array<T, 3>& uniform,
+                            std::uint64_t seed) {
+  std::vector<T> field = random_field<T>(dims, noise, seed);
+  std::size_t at = 0;
+  for (std::int32_t k = 0; k < dims[2]; ++k) {
+    for (std::int32_t j = 0; j < dims[1]; ++j) {
+      for (std::int32_t i = 0; i < dims[0]; ++i, ++at) {
+        const std::uint64_t kind =
+            (field::IndexHash{}({i / 8, j / 8, k / 8}) ^ seed * 0x9E3779B97F4A7C15U) % 5;
+        if (kind < 3) field[at] = uniform[kind];
+      }
+    }
+  }
+  return field;
 }
 
 }  // namespace mc::test

@@ -151,8 +151,9 @@ std::optional<KeepRule> resolve_keep(const SurfaceArgs& args) {
       {{"volume>=", KeepRule::By::volume}, {"area>=", KeepRule::By::area}}};
   for (const auto& [name, by] : kSizes) {
     if (!text.starts_with(name)) continue;
-    return KeepRule{.by = by,
-                    .least = parse_number_within("--keep", text.substr(name.size()), 0, kInfinity)};
+    return KeepRule{
+        .by = by,
+        .min_size = parse_number_within("--keep", text.substr(name.size()), 0, kInfinity)};
   }
   if (text.empty() || text.find_first_not_of("+0123456789") != std::string_view::npos) {
     refuse("--keep", fmt::format("unknown value '{}': expected largest, a number, volume>=X or "

@@ -107,7 +107,7 @@ TEST(Resolve, TakesRulesForComponents) {
   };
   EXPECT_EQ(rule("largest"), KeepRule{});
   EXPECT_EQ(rule("12"), (KeepRule{.n = 12}));
-  EXPECT_EQ(rule("volume>=1.5"), (KeepRule{.by = KeepRule::By::volume, .least = 1.5}));
+  EXPECT_EQ(rule("volume>=1.5"), (KeepRule{.by = KeepRule::By::volume, .min_size = 1.5}));
   EXPECT_EQ(rule("area>=0"), (KeepRule{.by = KeepRule::By::area}));
   EXPECT_FALSE(plan_of({"v.vdb", "-o", "m.ply"}).convert.keep);
 }

@@ -44,7 +44,7 @@ TEST(SelectComponents, PrefersTheFirstOfEqualSizes) {
 }
 
 TEST(SelectComponents, KeepsAllThatAreLargeEnough) {
-  const KeepRule rule{.by = KeepRule::By::volume, .least = 5};
+  const KeepRule rule{.by = KeepRule::By::volume, .min_size = 5};
   EXPECT_EQ(select_components(std::vector{5.0, 4.9, HUGE_VAL}, rule), (Kept{1, 0, 1}));
   EXPECT_TRUE(select_components({}, rule).empty());
 }
