@@ -8,8 +8,8 @@
 #include "mc/pipe.hpp"
 #include "mesh/chunk_room.hpp"
 #include "pipe/drive.hpp"
+#include "pipe/label_components.hpp"
 #include "pipe/room.hpp"
-#include "pipe/select_components.hpp"
 #include "pipe/tasks.hpp"
 #include "pipe/window_tasks.hpp"
 #include "process/stage_list.hpp"
@@ -143,8 +143,7 @@ MeshTotals run(const VolumeReader& reader, const RunOptions& options, bool allow
     throw Error(ErrorKind::usage, volume_of(reader).name,
                 "a stream cannot be read twice, as it takes to leave out components");
   }
-  const pipe::SelectedComponents selected =
-      pipe::select_components(reader, options, progress, stop);
+  const pipe::SelectedComponents selected = pipe::label_and_select(reader, options, progress, stop);
   const ComponentCounts& counts = selected.counts;
   if (counts.found != 0 && counts.kept == 0 && !allow_empty) {
     throw Error(ErrorKind::empty, {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipe/select_components.hpp"
+#include "pipe/label_components.hpp"
 
 #include <algorithm>
 #include <array>
@@ -155,7 +155,7 @@ SelectedComponents DenseLabelling::select() {
   if (options_.extract.border == Border::solid) {
     sizes.front() = std::numeric_limits<double>::infinity();
   }
-  const std::vector<std::uint8_t> kept = mc::select_components(sizes, *options_.keep);
+  const std::vector<std::uint8_t> kept = select_components(sizes, *options_.keep);
   const auto starts = table_.plane_starts();
   return {ComponentSelection(
               extraction::DenseSelection(first_.first_plane(), {starts.begin(), starts.end()},
@@ -188,15 +188,15 @@ SelectedComponents select_sparse(const LeafReader& reader, const RunOptions& opt
        }},
   }};
   base::pipeline((n_blocks + kBlocksPerTask - 1) / kBlocksPerTask, sizes.size(), steps);
-  const std::vector<std::uint8_t> kept = mc::select_components(components.sizes(), *options.keep);
+  const std::vector<std::uint8_t> kept = select_components(components.sizes(), *options.keep);
   return {ComponentSelection(components.selection(kept)),
           {kept.size(), static_cast<std::uint64_t>(std::ranges::count(kept, 1))}};
 }
 
 }  // namespace
 
-SelectedComponents select_components(const VolumeReader& reader, const RunOptions& options,
-                                     Progress& progress, const std::stop_token& stop) {
+SelectedComponents label_and_select(const VolumeReader& reader, const RunOptions& options,
+                                    Progress& progress, const std::stop_token& stop) {
   const Method& method = method_of(options.extract);
   if (!method.selects_components) {
     throw Error(ErrorKind::usage, "keep",

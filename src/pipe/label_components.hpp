@@ -22,7 +22,7 @@ struct SelectedComponents {
 /// Threads  uses the caller's arena; the result does not depend on the thread count.
 /// Cost     dense: 4 bytes a run of solid samples and 12 a component; sparse: 4 bytes a run, 80 a
 ///          block with both kinds of samples.
-SelectedComponents select_components(const VolumeReader& reader, const RunOptions& options,
-                                     Progress& progress, const std::stop_token& stop);
+SelectedComponents label_and_select(const VolumeReader& reader, const RunOptions& options,
+                                    Progress& progress, const std::stop_token& stop);
 
 }  // namespace mc::pipe
