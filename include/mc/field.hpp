@@ -264,7 +264,8 @@ class AttributeReader {
   /// Threads  may be called from several threads at once. A value depends on its place alone.
   virtual std::size_t values_at(std::span<const Vec3> places, std::byte* out) const = 0;
 };
-/// Attributes of one volume, which owns them.
+/// Attributes of one volume, which owns them. A material comes last, so that the first paint adds
+/// it at the end.
 using AttributeReaders = std::span<const AttributeReader* const>;
 /// The one of that kind; null if there is none.
 [[nodiscard]] const AttributeReader* find_attribute(AttributeReaders readers,

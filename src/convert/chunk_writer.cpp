@@ -183,19 +183,12 @@ void ChunkWriter::take(const SurfaceChunk& chunk, std::uint64_t record, ChunkCha
   const std::uint64_t hash = hash_of(chunk.mesh);
   const auto [held, is_new] = hashes_.try_emplace(chunk.id, hash);
   if (!is_new && std::exchange(held->second, hash) == hash) return;
-  count_clamped(chunk.totals.n_clamped);
+  const std::vector<std::uint64_t>& n_clamped = chunk.totals.n_clamped;
+  n_clamped_.resize(std::max(n_clamped_.size(), n_clamped.size()));
+  for (std::size_t n = 0; n < n_clamped.size(); ++n) n_clamped_[n] += n_clamped[n];
   const std::uint64_t n_bytes = output_.folder ? write_file(chunk, name) : hand_out(chunk, record);
   changes.updated.push_back({chunk.id, name, n_bytes, chunk.mesh.n_vertices(),
                              chunk.mesh.n_triangles(), chunk.totals.bounds});
-}
-
-/// The first paint puts the material before the attributes that there were.
-void ChunkWriter::count_clamped(const std::vector<std::uint64_t>& of_chunk) {
-  if (n_clamped_.size() < of_chunk.size()) {
-    n_clamped_.insert(n_clamped_.begin(), of_chunk.size() - n_clamped_.size(), 0);
-  }
-  const std::size_t n_before = n_clamped_.size() - of_chunk.size();
-  for (std::size_t n = 0; n < of_chunk.size(); ++n) n_clamped_[n_before + n] += of_chunk[n];
 }
 
 ChunkChanges ChunkWriter::write_all() {

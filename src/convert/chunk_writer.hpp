@@ -33,8 +33,7 @@ class ChunkWriter {
   ChunkChanges write_all();
   /// Those that changed with the samples in the boxes.
   ChunkChanges write_changes(std::span<const IndexBox> dirty, std::uint64_t record);
-  /// Of each of the store's attributes, the last of them last: vertices of all chunks so far whose
-  /// value was clamped.
+  /// Of each of the store's attributes: vertices of all chunks so far whose value was clamped.
   [[nodiscard]] const std::vector<std::uint64_t>& n_clamped() const { return n_clamped_; }
 
  private:
@@ -43,7 +42,6 @@ class ChunkWriter {
   std::uint64_t write_file(const SurfaceChunk& chunk, const std::string& name);
   std::uint64_t hand_out(const SurfaceChunk& chunk, std::uint64_t record);
   void put(const SurfaceChunk& chunk, const std::string& path, const SinkOptions& to) const;
-  void count_clamped(const std::vector<std::uint64_t>& of_chunk);
   void remove(const std::string& name) const;
   [[nodiscard]] std::string path_of(const std::string& name) const;
 

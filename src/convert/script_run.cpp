@@ -167,11 +167,10 @@ void ScriptRun::warn_of_clamped_values() const {
   if (!chunks_) return;
   const AttributeReaders attributes = store_->attributes();
   const std::vector<std::uint64_t>& n_clamped = chunks_->n_clamped();
-  for (std::size_t n = 1; n <= std::min(n_clamped.size(), attributes.size()); ++n) {
-    const std::uint64_t n_vertices = n_clamped[n_clamped.size() - n];
-    if (n_vertices == 0) continue;
-    warn_of_clamped(source_->place, attributes[attributes.size() - n]->info(),
-                    fmt::format("{} vertices of chunks", n_vertices), progress_);
+  for (std::size_t n = 0; n < std::min(n_clamped.size(), attributes.size()); ++n) {
+    if (n_clamped[n] == 0) continue;
+    warn_of_clamped(source_->place, attributes[n]->info(),
+                    fmt::format("{} vertices of chunks", n_clamped[n]), progress_);
   }
 }
 

@@ -9,11 +9,11 @@ namespace mc::edit {
 
 EditedMaterials::EditedMaterials(const World& world)
     : world_(world),
-      input_(find_attribute(world.samples.input().attributes(), material_attribute())),
-      all_{this} {
+      input_(find_attribute(world.samples.input().attributes(), material_attribute())) {
   for (const AttributeReader* reader : world.samples.input().attributes()) {
     if (reader != input_) all_.push_back(reader);
   }
+  all_.push_back(this);
 }
 
 bool EditedMaterials::paint_at(const Vec3& place, std::uint16_t& out) const {

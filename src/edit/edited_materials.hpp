@@ -23,7 +23,7 @@ class EditedMaterials final : public AttributeReader {
   /// has none, then the input's other attributes.
   [[nodiscard]] AttributeReaders attributes() const {
     const bool has_any = input_ != nullptr || !world_.materials.blocks().empty();
-    return AttributeReaders(all_).subspan(has_any ? 0 : 1);
+    return AttributeReaders(all_).first(all_.size() - (has_any ? 0 : 1));
   }
   [[nodiscard]] const AttributeInfo& info() const override { return material_attribute(); }
   std::size_t values_at(std::span<const Vec3> places, std::byte* out) const override;
@@ -33,7 +33,7 @@ class EditedMaterials final : public AttributeReader {
 
   const World& world_;
   const AttributeReader* input_;             // the input's materials, if it has any
-  std::vector<const AttributeReader*> all_;  // this, and the input's others
+  std::vector<const AttributeReader*> all_;  // the input's others, and this
 };
 
 }  // namespace mc::edit

@@ -170,7 +170,7 @@ void ChunkMesher::State::give_attributes(Slot& slot) const {
   std::vector<VertexAttribute>& all = slot.chunk.mesh.attributes;
   if (!attributes) return all.clear();
   if (slot.unpainted.info == material_attribute()) {
-    all.insert(all.begin(), std::exchange(slot.unpainted, {}));
+    all.push_back(std::exchange(slot.unpainted, {}));
   }
   attributes->give(slot.chunk.mesh, slot.chunk.totals.n_clamped);
   const auto material = std::ranges::find(all, material_attribute(), &VertexAttribute::info);

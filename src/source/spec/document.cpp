@@ -139,16 +139,16 @@ void load_attributes(const JsonDocument& document, const JsonValue& named, NodeL
   }
 }
 
-/// The keys "material" and "attributes".
+/// The keys "material" and "attributes". The material comes last, as readers hand attributes out.
 std::vector<AttributeNode> read_attributes(const JsonDocument& document, ObjectReader& keys,
                                            NodeLoader& nodes) {
   std::vector<AttributeNode> out;
-  if (const JsonValue* material = keys.optional("material")) {
-    out.push_back({material_attribute(), nodes.load(*material), material});
-  }
+  const JsonValue* material = keys.optional("material");
+  const NodeId material_node = material == nullptr ? NodeId{} : nodes.load(*material);
   if (const JsonValue* named = keys.optional("attributes")) {
     load_attributes(document, *named, nodes, out);
   }
+  if (material != nullptr) out.push_back({material_attribute(), material_node, material});
   return out;
 }
 
