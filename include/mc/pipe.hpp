@@ -49,7 +49,8 @@ struct RunOptions {
   AttributeReaders attributes;              ///< what vertices carry; pass check_attributes()
   MeshStages stages{};  ///< applied to the mesh on its way to the sink, in order
   bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
-  Formatted formatted;  ///< MeshNeeds::formatted of the sink
+  /// MeshNeeds::formatted of the sink, and SinkFormat::attribute_bytes of each attribute.
+  Formatted formatted;
   std::function<void(const MemoryNeed&)> tell_need;  ///< called before the work; or empty
 };
 

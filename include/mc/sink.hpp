@@ -94,8 +94,10 @@ struct SinkFormat {
   TextForm text = TextForm::none;  ///< optional: SinkOptions::ascii chooses it
   bool precision = false;          ///< SinkOptions::precision chooses float or double coordinates
   bool has_normals = true;         ///< one a vertex
-  /// Whether a vertex can carry such an attribute, converted if need be. Null: none at all.
-  bool (*holds_attribute)(const AttributeInfo& attribute) = nullptr;
+  /// Bytes that the sink makes of an attribute of one vertex, converted if need be; 0 if it cannot
+  /// hold the attribute. Null: it holds none.
+  std::size_t (*attribute_bytes)(const AttributeInfo& attribute,
+                                 const SinkOptions& options) = nullptr;
   bool several_objects = false;  ///< in one file
   bool y_up_metres = false;      ///< coordinates are in metres, +Y is up; else the source's
   bool one_file = true;          ///< a mesh is one file, and can go to a pipe

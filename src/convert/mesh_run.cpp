@@ -198,6 +198,10 @@ RunOptions MeshRun::run_options(double iso) const {
   options.stages = options_.stages;
   options.skip = options_.skip;
   options.formatted = needs_.formatted;
+  for (const AttributeReader* attribute : attributes_) {
+    options.formatted.vertex_bytes +=
+        static_cast<std::uint32_t>(format_.attribute_bytes(attribute->info(), options_.sink));
+  }
   options.to_world = to_world;
   return options;
 }

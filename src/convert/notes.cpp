@@ -19,7 +19,7 @@ void note_chosen_grid(const Source& source, const SourceOptions& options, Progre
 }
 
 bool holds(const SinkFormat& format, const AttributeInfo& attribute) {
-  return format.holds_attribute != nullptr && format.holds_attribute(attribute);
+  return format.attribute_bytes != nullptr && format.attribute_bytes(attribute, {}) != 0;
 }
 
 void note_left_out(const SinkFormat& format, std::span<const AttributeInfo> attributes,

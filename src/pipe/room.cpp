@@ -8,7 +8,6 @@
 
 #include "base/parallel.hpp"
 #include "extract/components/selection.hpp"
-#include "mesh/attribute_text.hpp"
 #include "mesh/chunk_room.hpp"
 #include "process/stage_list.hpp"
 
@@ -26,16 +25,10 @@ constexpr std::uint64_t kPiecesAChunk = 2;
 /// A buffer that moves is there with one twice as large.
 constexpr std::uint64_t kMostGrowth = 3;
 
-/// Bytes of a vertex's attributes in its chunk, and the most that a sink makes of them: binary and
-/// aligned, with a colour of four bytes, or text.
+/// Bytes of a vertex's attributes in its chunk.
 std::uint64_t attribute_bytes(const RunOptions& options) {
   std::uint64_t sum = 0;
-  for (const AttributeReader* reader : options.attributes) {
-    const AttributeInfo& info = reader->info();
-    const std::uint64_t own = info.bytes();
-    const std::uint64_t text = std::uint64_t{info.n_components} * mesh::usual_digits(info.type);
-    sum += own + std::max((own + 3) / 4 * 4 + 4, text);
-  }
+  for (const AttributeReader* reader : options.attributes) sum += reader->info().bytes();
   return sum;
 }
 

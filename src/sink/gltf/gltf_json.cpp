@@ -197,16 +197,6 @@ tinygltf::Model model_of(std::span<const GltfObject> objects) {
 
 }  // namespace
 
-bool becomes_float(SampleType type) {
-  return type != SampleType::f32 && component_of(type) == TINYGLTF_COMPONENT_TYPE_FLOAT;
-}
-
-std::size_t attribute_bytes(const AttributeInfo& attribute) {
-  if (attribute == material_attribute()) return kColourAt + 4;
-  const std::size_t each = becomes_float(attribute.type) ? 4 : sample_size(attribute.type);
-  return (attribute.n_components * each + 3) / 4 * 4;
-}
-
 std::string gltf_json(std::span<const GltfObject> objects, std::span<const GltfBuffer> buffers,
                       std::span<const std::pair<std::string, std::string>> provenance) {
   const GltfObject nothing;  // a scene must have a node

@@ -23,7 +23,7 @@ std::unique_ptr<MeshSink> open_gltf_of(const std::string& path, const SinkOption
                                        std::uint64_t most_bytes);
 MeshNeeds gltf_needs(const SinkOptions& options, bool f32_moves);
 /// Numbers of a type that glTF does not have become floats.
-inline bool gltf_holds(const AttributeInfo& /*attribute*/) { return true; }
+std::size_t gltf_attribute_bytes(const AttributeInfo& attribute, const SinkOptions& options);
 
 inline constexpr SinkFormat kGlbFormat{.name = "glb",
                                        .display = "GLB",
@@ -32,7 +32,7 @@ inline constexpr SinkFormat kGlbFormat{.name = "glb",
                                        .built_in = MC_WITH_GLTF != 0,
                                        .open_mesh = open_glb,
                                        .needs = gltf_needs,
-                                       .holds_attribute = gltf_holds,
+                                       .attribute_bytes = gltf_attribute_bytes,
                                        .several_objects = true,
                                        .y_up_metres = true,
                                        .to_memory = true};
@@ -44,7 +44,7 @@ inline constexpr SinkFormat kGltfFormat{.name = "gltf",
                                         .built_in = MC_WITH_GLTF != 0,
                                         .open_mesh = open_gltf,
                                         .needs = gltf_needs,
-                                        .holds_attribute = gltf_holds,
+                                        .attribute_bytes = gltf_attribute_bytes,
                                         .several_objects = true,
                                         .y_up_metres = true,
                                         .one_file = false};

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "field/attributes.hpp"
-#include "mesh/attribute_text.hpp"
 #include "sink/attribute_columns.hpp"
 #include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
@@ -35,11 +34,33 @@ constexpr LineBytes vertex_line(Precision precision) {
   return {2 * kMostTriple + 2,
           (precision == Precision::f64 ? kMostTriple : kFloatTriple) + kFloatTriple + 2};
 }
+/// Characters that a number of an attribute takes with a space before it: at most, but of
+/// floating-point numbers what is usual.
+constexpr std::size_t usual_digits(SampleType type) {
+  switch (type) {
+    case SampleType::u8:
+    case SampleType::i8:
+      return 5;
+    case SampleType::u16:
+    case SampleType::i16:
+      return 7;
+    case SampleType::u32:
+    case SampleType::i32:
+      return 12;
+    case SampleType::f16:
+    case SampleType::f32:
+      return 16;
+    case SampleType::i64:
+    case SampleType::f64:
+      return 25;
+  }
+  return 25;
+}
 LineBytes vertex_line(const MeshObject& object) {
   LineBytes line = vertex_line(object.precision);
   for (const AttributeInfo& attribute : object.attributes) {
     line.most += attribute.n_components * (kMostDigits + 1);
-    line.usual += attribute.n_components * mesh::usual_digits(attribute.type);
+    line.usual += attribute.n_components * usual_digits(attribute.type);
   }
   return line;
 }
@@ -194,7 +215,7 @@ void PlySink::begin_object(const MeshObject& object) {
     refuse_second_object(kPlyFormat, out_.place());
   }
   for (const AttributeInfo& attribute : object.attributes) {
-    if (ply_holds(attribute)) continue;
+    if (ply_attribute_bytes(attribute, options_) != 0) continue;
     throw Error(ErrorKind::usage, out_.place(),
                 "PLY has no " + std::string(sample_name(attribute.type)) + " for the attribute " +
                     attribute.name,
@@ -324,6 +345,12 @@ MeshNeeds ply_needs(const SinkOptions& options, bool f32_moves) {
   const Precision precision =
       options.precision.value_or(f32_moves ? Precision::f64 : Precision::f32);
   return {.precision = precision, .formatted = formatted(precision, options.ascii)};
+}
+
+std::size_t ply_attribute_bytes(const AttributeInfo& attribute, const SinkOptions& options) {
+  if (attribute.type == SampleType::i64) return 0;
+  return options.ascii ? attribute.n_components * usual_digits(attribute.type)
+                       : stored_bytes(attribute);
 }
 
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options) {

@@ -12,8 +12,8 @@ namespace mc::sink {
 /// PLY, binary little endian or ASCII. Errors: output.
 std::unique_ptr<MeshSink> open_ply(const std::string& path, const SinkOptions& options);
 MeshNeeds ply_needs(const SinkOptions& options, bool f32_moves);
-/// Readers of PLY know no integers of 64 bits.
-inline bool ply_holds(const AttributeInfo& attribute) { return attribute.type != SampleType::i64; }
+/// 0 for integers of 64 bits, which readers of PLY do not know.
+std::size_t ply_attribute_bytes(const AttributeInfo& attribute, const SinkOptions& options);
 
 inline constexpr SinkFormat kPlyFormat{.name = "ply",
                                        .display = "PLY",
@@ -22,7 +22,7 @@ inline constexpr SinkFormat kPlyFormat{.name = "ply",
                                        .needs = ply_needs,
                                        .text = TextForm::optional,
                                        .precision = true,
-                                       .holds_attribute = ply_holds};
+                                       .attribute_bytes = ply_attribute_bytes};
 
 /// How far the indices of PLY reach.
 struct PlyLimits {

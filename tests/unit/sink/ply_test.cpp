@@ -111,8 +111,10 @@ TEST(Ply, AttributesAreProperties) {
 
 TEST(Ply, HoldsAllAttributesButLongIntegers) {
   const SinkFormat& format = *find_sink_format("ply");
-  EXPECT_TRUE(format.holds_attribute({"heat", SampleType::f64, 4}));
-  EXPECT_FALSE(format.holds_attribute({"heat", SampleType::i64}));
+  EXPECT_EQ(format.attribute_bytes({"heat", SampleType::f64, 4}, {}), 32U);
+  EXPECT_EQ(format.attribute_bytes({"heat", SampleType::f16, 2}, {}), 8U);
+  EXPECT_EQ(format.attribute_bytes({"heat", SampleType::u8, 2}, {.ascii = true}), 10U);
+  EXPECT_EQ(format.attribute_bytes({"heat", SampleType::i64}, {}), 0U);
   EXPECT_NE(error_text(
                 [] {
                   written({.attributes = {{"heat", SampleType::i64}}}, ply(), {});
