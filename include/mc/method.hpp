@@ -178,7 +178,8 @@ struct Method {
   std::unique_ptr<SlabEngine> (*box)(const Volume& volume, const Affine& to_world,
                                      const ExtractOptions& options,
                                      const IndexBox& cells) = nullptr;
-  /// Whether its engines obey ExtractOptions::selection; components are then those of cubes.
+  /// Whether RunOptions::keep works with its engines. Only methods of this library can set it: the
+  /// selection of components is not public.
   bool selects_components = false;
 };
 

@@ -93,7 +93,7 @@ class MeshStage {
   /// Whether it may drop vertices or triangles. It then reaches at least one layer.
   [[nodiscard]] virtual bool changes_counts() const { return false; }
   [[nodiscard]] virtual StageBytes bytes() const { return {}; }
-  /// Changes what sinks are told of the mesh: whether it has normals.
+  /// Updates the announced MeshObject, for example its has_normals.
   virtual void describe(MeshObject& /*object*/) const {}
   /// Changes a window. Vertices and triangles keep their order, and none are added.
   /// Threads  several calls at once, with different windows.

@@ -103,6 +103,18 @@ class Cut final : public MeshStage {
   }
 };
 
+/// Drops everything.
+class DropAll final : public MeshStage {
+ public:
+  [[nodiscard]] std::string_view name() const override { return "drop_all"; }
+  [[nodiscard]] std::int32_t reach() const override { return 1; }
+  [[nodiscard]] bool changes_counts() const override { return true; }
+  void apply(MeshWindow& window) const override {
+    window.keep(std::vector<std::uint8_t>(window.n_vertices()),
+                std::vector<std::uint8_t>(window.n_triangles()));
+  }
+};
+
 /// Triangles at each vertex.
 inline std::vector<std::uint32_t> valences(const MeshWindow& window) {
   std::vector<std::uint32_t> out(window.n_vertices());

@@ -31,7 +31,8 @@ bool are_points(const JsonDocument& document, const JsonValue& found, const char
   return false;
 }
 
-/// The number, as float; none, and a fault, if it is no number that a float can hold.
+/// The number as float; nothing, and a fault is added, if it is not a number that a float can
+/// hold.
 std::optional<float> as_float(const JsonDocument& document, const JsonValue& item) {
   if (item.kind == JsonKind::number && item.number >= kAnyFloat.lo && item.number <= kAnyFloat.hi) {
     return static_cast<float>(item.number);

@@ -245,16 +245,7 @@ TEST(Convert, SpoolsAStreamForStagesThatReadItTwice) {
 
 TEST(Convert, BlamesTheStagesIfTheyLeaveNothing) {
   const Folder folder;
-  class None final : public MeshStage {
-   public:
-    [[nodiscard]] std::string_view name() const override { return "none"; }
-    [[nodiscard]] std::int32_t reach() const override { return 1; }
-    [[nodiscard]] bool changes_counts() const override { return true; }
-    void apply(MeshWindow& window) const override {
-      window.keep(std::vector<std::uint8_t>(window.n_vertices()),
-                  std::vector<std::uint8_t>(window.n_triangles()));
-    }
-  } const none;
+  const test::DropAll none;
   const std::array<const MeshStage*, 1> stages{&none};
   ConvertOptions options = dot_options();
   options.stages = stages;
@@ -263,7 +254,7 @@ TEST(Convert, BlamesTheStagesIfTheyLeaveNothing) {
     FAIL() << "nothing is left";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::empty);
-    EXPECT_EQ(std::string(error.what()), "none: no surface is left at this iso");
+    EXPECT_EQ(std::string(error.what()), "drop_all: no surface is left at this iso");
   }
   EXPECT_FALSE(std::filesystem::exists(folder.path("none.ply")));
 }

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "support/memory_readers.hpp"
 #include "support/mesh_collector.hpp"
 #include "support/random_fields.hpp"
+#include "support/same_mesh.hpp"
 
 // Memory that is bounded whatever the samples are: chunks keep within their bytes, and the mesh
 // does not show how it was cut.
@@ -63,18 +63,8 @@ Weighed weigh(const VolumeReader& reader, const ExtractOptions& extract, std::ui
   return out;
 }
 
-template <class Array>
-bool same_bytes(const Array& a, const Array& b) {
-  return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
-}
-
 void expect_same(const Collected& got, const Collected& want) {
-  EXPECT_TRUE(same_bytes(got.mesh.positions, want.mesh.positions));
-  EXPECT_TRUE(same_bytes(got.mesh.positions_f64, want.mesh.positions_f64));
-  EXPECT_TRUE(same_bytes(got.mesh.normals, want.mesh.normals));
-  EXPECT_EQ(got.mesh.triangles, want.mesh.triangles);
-  EXPECT_EQ(got.totals.n_vertices, want.totals.n_vertices);
-  EXPECT_EQ(got.totals.n_triangles, want.totals.n_triangles);
+  expect_same_mesh(got, want);
   EXPECT_EQ(got.totals.n_boundary_edges, want.totals.n_boundary_edges);
   EXPECT_EQ(got.totals.area, want.totals.area);
   EXPECT_EQ(got.totals.volume, want.totals.volume);

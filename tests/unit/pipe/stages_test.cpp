@@ -192,19 +192,10 @@ TEST(StagedRun, WorkWithMethodsThatMakeOneLayerAtATime) {
 }
 
 TEST(StagedRun, ThatLeaveNothingAreNamed) {
-  class None final : public MeshStage {
-   public:
-    [[nodiscard]] std::string_view name() const override { return "none"; }
-    [[nodiscard]] std::int32_t reach() const override { return 1; }
-    [[nodiscard]] bool changes_counts() const override { return true; }
-    void apply(MeshWindow& window) const override {
-      window.keep(std::vector<std::uint8_t>(window.n_vertices()),
-                  std::vector<std::uint8_t>(window.n_triangles()));
-    }
-  } const none;
+  const DropAll none;
   const auto stages = list(none);
   EXPECT_EQ(Staged(stages).refusal(noise({9, 9, 9}), ErrorKind::empty),
-            "none: no surface is left at this iso");
+            "drop_all: no surface is left at this iso");
 }
 
 }  // namespace
