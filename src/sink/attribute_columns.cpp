@@ -12,10 +12,6 @@ namespace mc::sink {
 
 namespace {
 
-std::size_t n_vertices_of(const VertexAttribute& attribute) {
-  return attribute.values.size() / attribute.info.bytes();
-}
-
 /// A vertex's bytes are copied by an instruction or two where their number is usual.
 template <std::size_t kBytes>
 void copy_column(const std::byte* from, std::size_t n, std::byte* to, std::size_t stride) {
@@ -24,10 +20,11 @@ void copy_column(const std::byte* from, std::size_t n, std::byte* to, std::size_
   }
 }
 
-void copy_attribute(const VertexAttribute& attribute, std::byte* to, std::size_t stride) {
-  const std::byte* from = attribute.values.data();
-  const std::size_t n = n_vertices_of(attribute);
+void copy_attribute(const VertexAttribute& attribute, const VertexRange& vertices, std::byte* to,
+                    std::size_t stride) {
   const std::size_t n_bytes = attribute.info.bytes();
+  const std::byte* from = attribute.values.data() + vertices.first * n_bytes;
+  const std::size_t n = vertices.last - vertices.first;
   switch (n_bytes) {
     case 2:
       return copy_column<2>(from, n, to, stride);
@@ -42,16 +39,16 @@ void copy_attribute(const VertexAttribute& attribute, std::byte* to, std::size_t
 
 }  // namespace
 
-void put_attribute(const VertexAttribute& attribute, bool as_floats, std::byte* to,
-                   std::size_t stride) {
-  if (!as_floats) return copy_attribute(attribute, to, stride);
+void put_attribute(const VertexAttribute& attribute, const VertexRange& vertices, bool as_floats,
+                   std::byte* to, std::size_t stride) {
+  if (!as_floats) return copy_attribute(attribute, vertices, to, stride);
   const std::size_t n_components = attribute.info.n_components;
   field::visit_type(attribute.info.type, [&]<class T>(field::TypeTag<T>) {
     const T* from = attribute.values_as<T>().data();
-    for (std::size_t v = 0; v < n_vertices_of(attribute); ++v) {
+    for (std::size_t v = vertices.first; v < vertices.last; ++v, to += stride) {
       for (std::size_t c = 0; c < n_components; ++c) {
         const auto number = static_cast<float>(field::number(from[v * n_components + c]));
-        std::memcpy(to + v * stride + c * sizeof number, &number, sizeof number);
+        std::memcpy(to + c * sizeof number, &number, sizeof number);
       }
     }
   });

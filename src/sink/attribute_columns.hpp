@@ -10,10 +10,15 @@
 
 namespace mc::sink {
 
-/// Writes an attribute into records of `stride` bytes; `to` is its place in the first. Its numbers
-/// keep their type, or become floats.
-void put_attribute(const VertexAttribute& attribute, bool as_floats, std::byte* to,
-                   std::size_t stride);
+/// Vertices [first, last) of a chunk.
+struct VertexRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// Writes an attribute of some vertices into records of `stride` bytes; `to` is its place in the
+/// first. Its numbers keep their type, or become floats.
+void put_attribute(const VertexAttribute& attribute, const VertexRange& vertices, bool as_floats,
+                   std::byte* to, std::size_t stride);
 
 /// Sets those of n_vertices * n_components floats that are not finite to 0 where put_attribute()
 /// wrote them; returns how many.

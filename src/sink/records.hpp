@@ -15,23 +15,29 @@ namespace mc::sink {
 
 static_assert(std::endian::native == std::endian::little, "every binary format here is so");
 
-/// Makes room for so many bytes, of which none are kept: memory that moves would be there twice.
-inline void make_room(Buffer<std::byte>& to, std::size_t n_bytes) {
-  if (to.capacity() < n_bytes) {
-    to = Buffer<std::byte>();
-    to.reserve(n_bytes);
+/// Makes room for n elements, of which none are kept: memory that moves would be there twice.
+template <class T>
+void make_room(Buffer<T>& to, std::size_t n) {
+  if (to.capacity() < n) {
+    to = Buffer<T>();
+    to.reserve(n);
   }
 }
 
-/// Fills `to` with records 0..n-1 of `stride` bytes: encode(i, at) makes one.
+/// Bytes of a block of records: small enough for the second-level cache, beside what it is made of.
+constexpr std::size_t kBlockBytes = std::size_t{1} << 18;
+/// Bytes behind the last record that encoding may overwrite.
+constexpr std::size_t kRecordSlack = 8;
+
+/// Fills `to` with records [first, last) of `stride` bytes: encode(first, last, at) makes them from
+/// `at` on.
 template <class Encode>
-void make_records(std::size_t n, std::size_t stride, Buffer<std::byte>& to, Encode encode) {
-  make_room(to, n * stride);
-  to.resize(n * stride);
-  std::byte* at = to.data();
-  for (std::size_t i = 0; i < n; ++i, at += stride) {
-    encode(i, at);
-  }
+void make_records(std::size_t first, std::size_t last, std::size_t stride, Buffer<std::byte>& to,
+                  Encode encode) {
+  const std::size_t n_bytes = (last - first) * stride;
+  make_room(to, std::max(n_bytes, kBlockBytes) + kRecordSlack);
+  to.resize(n_bytes);
+  encode(first, last, to.data());
 }
 
 /// How long a line can be: as print() may write it, and as it is with numbers that are met.
@@ -60,24 +66,24 @@ void make_lines(std::size_t n, const LineBytes& line, Buffer<std::byte>& to, Pri
   to.resize(size);
 }
 
-/// Positions (f32 or f64, as they came), normals where there are some, then n_more bytes of zeros
-/// for attributes: interleaved records.
-inline void make_vertices(const MeshChunk& chunk, std::size_t n_more, Buffer<std::byte>& to) {
+/// Positions (f32 or f64, as they came), normals if there are some, then n_more bytes of zeros for
+/// attributes: interleaved records of vertices [first, last).
+inline void put_vertices(const MeshChunk& chunk, std::size_t first, std::size_t last,
+                         std::size_t n_more, std::byte* at) {
   const auto interleave = [&]<class T, std::size_t kNormal>(
                               const Buffer<T>& positions,
                               std::integral_constant<std::size_t, kNormal>) {
     constexpr std::size_t kPosition = 3 * sizeof(T);
-    const auto put = [p = positions.data(), n = chunk.normals.data()](std::size_t i,
-                                                                      std::byte* at) {
-      std::memcpy(at, p + 3 * i, kPosition);
-      if constexpr (kNormal != 0) std::memcpy(at + kPosition, n + 3 * i, kNormal);
-    };
-    if (n_more == 0) return make_records(chunk.n_vertices(), kPosition + kNormal, to, put);
-    make_records(chunk.n_vertices(), kPosition + kNormal + n_more, to,
-                 [put, n_more](std::size_t i, std::byte* at) {
-                   put(i, at);
-                   std::memset(at + kPosition + kNormal, 0, n_more);
-                 });
+    const T* p = positions.data();
+    const float* n = chunk.normals.data();
+    for (std::size_t v = first; v < last; ++v) {
+      std::memcpy(at, p + 3 * v, kPosition);
+      if constexpr (kNormal != 0) std::memcpy(at + kPosition, n + 3 * v, kNormal);
+      at += kPosition + kNormal;
+      if (n_more == 0) continue;
+      std::memset(at, 0, n_more);
+      at += n_more;
+    }
   };
   const auto with_normals = [&](const auto& positions) {
     if (chunk.normals.empty()) {
@@ -87,6 +93,19 @@ inline void make_vertices(const MeshChunk& chunk, std::size_t n_more, Buffer<std
     }
   };
   chunk.positions_f64.empty() ? with_normals(chunk.positions) : with_normals(chunk.positions_f64);
+}
+
+/// Makes records of one index each: its vertex in the whole mesh, which fits the type.
+template <class Index>
+auto id_encoder(const MeshChunk& chunk) {
+  return [&chunk](std::size_t first, std::size_t last, std::byte* at) {
+    const auto base = static_cast<std::uint32_t>(chunk.index_base);
+    const std::uint32_t* index = chunk.indices.data();
+    for (std::size_t n = first; n < last; ++n, at += sizeof(Index)) {
+      const auto id = static_cast<Index>(base + index[n]);
+      std::memcpy(at, &id, sizeof id);
+    }
+  };
 }
 
 }  // namespace mc::sink

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "sink/attribute_columns.hpp"
@@ -73,8 +74,12 @@ class GltfSink final : public MeshSink {
   void check_vertex_bytes(const GltfObject& object) const;
   void note_rounded(const MeshObject& object) const;
   void warn_of_not_finite() const;
-  std::uint64_t put_attributes(const MeshChunk& chunk, Buffer<std::byte>& vertices) const;
-  void make_indices(const MeshChunk& chunk, Piece& piece) const;
+  std::uint64_t put_attributes(const MeshChunk& chunk, const VertexRange& vertices,
+                               std::byte* to) const;
+  [[nodiscard]] auto vertex_encoder(const MeshChunk& chunk, std::uint64_t& n_not_finite) const;
+  template <class Call>
+  void with_index_type(Call call) const;
+  [[nodiscard]] bool has_plain_positions() const;
   void take_spooled_indices();
   void shorten_spooled_indices();
   void finish_glb();
@@ -87,7 +92,7 @@ class GltfSink final : public MeshSink {
   struct Slot {
     Piece vertices, indices;
     std::array<float, 3> lo{}, hi{};  // of the chunk's positions
-    std::uint64_t n_not_finite = 0;   // numbers of its attributes
+    std::uint64_t n_not_finite = 0;   // numbers of attributes, of all chunks of this object
   };
 
   SinkOptions options_;
@@ -223,39 +228,34 @@ void GltfSink::begin_object(const MeshObject& object) {
   }
 }
 
-/// In the type they get, where that is known, else u32.
-void GltfSink::make_indices(const MeshChunk& chunk, Piece& piece) const {
-  const auto encode = [&]<class Index>(Index /*tag*/) {
-    make_records(chunk.indices.size(), sizeof(Index), piece.made,
-                 [base = static_cast<std::uint32_t>(chunk.index_base), ids = chunk.indices.data()](
-                     std::size_t i, std::byte* at) {
-                   const auto id = static_cast<Index>(base + ids[i]);
-                   std::memcpy(at, &id, sizeof id);
-                 });
-  };
+/// Calls with the type that indices get, where that is known, else with u32.
+template <class Call>
+void GltfSink::with_index_type(Call call) const {
   if (!index_spool_ && objects_.back().has_short_indices()) {
-    encode(std::uint16_t{});
+    call(std::uint16_t{});
   } else {
-    encode(std::uint32_t{});
+    call(std::uint32_t{});
   }
-  piece.take_made();
 }
 
 /// Returns how many numbers are not finite, which the format forbids.
-std::uint64_t GltfSink::put_attributes(const MeshChunk& chunk, Buffer<std::byte>& vertices) const {
+std::uint64_t GltfSink::put_attributes(const MeshChunk& chunk, const VertexRange& vertices,
+                                       std::byte* to) const {
   const GltfObject& object = objects_.back();
   const auto stride = static_cast<std::size_t>(object.vertex_bytes());
-  std::byte* to = vertices.data() + object.attributes_at();
+  const std::size_t n = vertices.last - vertices.first;
+  to += object.attributes_at();
   std::uint64_t n_not_finite = 0;
   for (const VertexAttribute& attribute : chunk.attributes) {
     const SampleType type = attribute.info.type;
-    put_attribute(attribute, becomes_float(type), to, stride);
+    put_attribute(attribute, vertices, becomes_float(type), to, stride);
     if (becomes_float(type) || type == SampleType::f32) {
-      n_not_finite += zero_not_finite(chunk.n_vertices(), attribute.info.n_components, to, stride);
+      n_not_finite += zero_not_finite(n, attribute.info.n_components, to, stride);
     }
     if (attribute.info == material_attribute()) {
       std::byte* colour_at = to + kColourAt;
-      for (const std::uint16_t index : attribute.values_as<std::uint16_t>()) {
+      for (const std::uint16_t index :
+           attribute.values_as<std::uint16_t>().subspan(vertices.first, n)) {
         const std::array<std::uint8_t, 4> colour = colour_of(index);
         std::memcpy(colour_at, colour.data(), sizeof colour);
         colour_at += stride;
@@ -264,6 +264,20 @@ std::uint64_t GltfSink::put_attributes(const MeshChunk& chunk, Buffer<std::byte>
     to += attribute_bytes(attribute.info);
   }
   return n_not_finite;
+}
+
+/// Whether a vertex is no more than its position, as chunks hold it.
+bool GltfSink::has_plain_positions() const {
+  return !object_.has_normals && object_.attributes.empty();
+}
+
+/// Makes vertices, and counts the numbers that are not finite.
+auto GltfSink::vertex_encoder(const MeshChunk& chunk, std::uint64_t& n_not_finite) const {
+  return [this, &chunk, &n_not_finite](std::size_t first, std::size_t last, std::byte* to) {
+    const GltfObject& object = objects_.back();
+    put_vertices(chunk, first, last, object.vertex_bytes() - object.attributes_at(), to);
+    n_not_finite += put_attributes(chunk, {first, last}, to);
+  };
 }
 
 void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
@@ -279,15 +293,16 @@ void GltfSink::format(const MeshChunk& chunk, std::size_t slot) {
   }
   s.lo = lo;
   s.hi = hi;
-  if (object_.has_normals || !chunk.attributes.empty()) {
-    const GltfObject& object = objects_.back();
-    make_vertices(chunk, object.vertex_bytes() - object.attributes_at(), s.vertices.made);
-    s.n_not_finite = put_attributes(chunk, s.vertices.made);
-    s.vertices.take_made();
-  } else {
+  if (has_plain_positions()) {
     s.vertices.take(chunk.positions);
+  } else {
+    vertices_->format_records(chunk.n_vertices(), objects_.back().vertex_bytes(), s.vertices,
+                              vertex_encoder(chunk, s.n_not_finite));
   }
-  make_indices(chunk, s.indices);
+  with_index_type([&]<class Index>(Index /*tag*/) {
+    indices_->format_records(chunk.indices.size(), sizeof(Index), s.indices,
+                             id_encoder<Index>(chunk));
+  });
 }
 
 void GltfSink::place(const MeshChunk& chunk, std::size_t slot) {
@@ -299,14 +314,22 @@ void GltfSink::place(const MeshChunk& chunk, std::size_t slot) {
     object.lo[a] = std::min(object.lo[a], s.lo[a]);
     object.hi[a] = std::max(object.hi[a], s.hi[a]);
   }
-  n_not_finite_ += s.n_not_finite;
   vertices_->place(s.vertices);
   indices_->place(s.indices);
 }
 
-void GltfSink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
-  vertices_->write(slots_[slot].vertices);
-  indices_->write(slots_[slot].indices);
+void GltfSink::write(const MeshChunk& chunk, std::size_t slot) {
+  Slot& s = slots_[slot];
+  if (has_plain_positions()) {
+    vertices_->write(s.vertices);
+  } else {
+    vertices_->write_records(chunk.n_vertices(), objects_.back().vertex_bytes(), s.vertices,
+                             vertex_encoder(chunk, s.n_not_finite));
+  }
+  with_index_type([&]<class Index>(Index /*tag*/) {
+    indices_->write_records(chunk.indices.size(), sizeof(Index), s.indices,
+                            id_encoder<Index>(chunk));
+  });
 }
 
 /// Appends the spooled indices to the buffer, in the type that turned out to fit.
@@ -342,6 +365,7 @@ void GltfSink::end_object(const MeshTotals& /*totals*/) {
   object.indices_at = object.vertices_at + object.n_vertices * object.vertex_bytes();
   vertices_->end();
   indices_->end();
+  for (Slot& slot : slots_) n_not_finite_ += std::exchange(slot.n_not_finite, 0);
   if (index_spool_) {
     take_spooled_indices();
   }

@@ -27,8 +27,6 @@ constexpr std::size_t kFaceBytes = 13;  // uchar 3, three indices
 
 constexpr std::size_t kNormalBytes = 12;
 
-using Ids = std::array<std::uint32_t, 3>;
-
 /// Of the text form, with normals.
 constexpr LineBytes vertex_line(Precision precision) {
   return {2 * kMostTriple + 2,
@@ -119,6 +117,23 @@ Formatted formatted(Precision precision, bool ascii) {
   return {static_cast<std::uint32_t>(position_bytes(precision) + kNormalBytes), kFaceBytes};
 }
 
+/// Makes faces. Ids fit 32 bits: more than 2^32 vertices are refused.
+auto face_encoder(const MeshChunk& chunk) {
+  return [&chunk](std::size_t first, std::size_t last, std::byte* at) {
+    const auto base = static_cast<std::uint32_t>(chunk.index_base);
+    const std::uint32_t* index = chunk.indices.data() + 3 * first;
+    // Two whole words, of which the next face overwrites three bytes. Built in registers: a copy on
+    // the stack would be stored in three parts and loaded in two, which waits for the stores.
+    for (std::size_t t = first; t < last; ++t, index += 3, at += kFaceBytes) {
+      const std::uint64_t id[3] = {base + index[0], base + index[1], base + index[2]};
+      const std::uint64_t low = 3 | id[0] << 8 | id[1] << 40;
+      const std::uint64_t high = id[1] >> 24 | id[2] << 8;
+      std::memcpy(at, &low, sizeof low);
+      std::memcpy(at + sizeof low, &high, sizeof high);
+    }
+  };
+}
+
 class PlySink final : public MeshSink {
  public:
   PlySink(const std::string& path, const SinkOptions& options, const PlyLimits& limits)
@@ -138,9 +153,10 @@ class PlySink final : public MeshSink {
   [[nodiscard]] std::size_t attribute_bytes() const;
   [[nodiscard]] std::size_t vertex_bytes() const;
   void check_vertices(std::uint64_t n) const;
-  void make_vertex_piece(const MeshChunk& chunk, Piece& piece) const;
-  void make_face_piece(const MeshChunk& chunk, Piece& piece) const;
-  void make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const;
+  void print_vertices(const MeshChunk& chunk, Piece& piece) const;
+  void print_faces(const MeshChunk& chunk, Piece& piece) const;
+  [[nodiscard]] auto vertex_encoder(const MeshChunk& chunk) const;
+  [[nodiscard]] bool has_plain_positions() const;
 
   struct Slot {
     Piece vertices, faces;
@@ -238,8 +254,8 @@ void PlySink::begin_object(const MeshObject& object) {
   }
 }
 
-void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) const {
-  make_lines(chunk.n_vertices(), vertex_line(object_), to, [&](std::size_t i, char* at) {
+void PlySink::print_vertices(const MeshChunk& chunk, Piece& piece) const {
+  make_lines(chunk.n_vertices(), vertex_line(object_), piece.made, [&](std::size_t i, char* at) {
     at = object_.precision == Precision::f64 ? print_triple(at, &chunk.positions_f64[3 * i])
                                              : print_triple(at, &chunk.positions[3 * i]);
     if (object_.has_normals) {
@@ -252,55 +268,50 @@ void PlySink::make_vertex_lines(const MeshChunk& chunk, Buffer<std::byte>& to) c
     *at++ = '\n';
     return at;
   });
-}
-
-void PlySink::make_vertex_piece(const MeshChunk& chunk, Piece& piece) const {
-  if (options_.ascii) {
-    make_vertex_lines(chunk, piece.made);
-    piece.take_made();
-  } else if (object_.has_normals || !chunk.attributes.empty()) {
-    make_vertices(chunk, attribute_bytes(), piece.made);
-    std::byte* to = piece.made.data() + vertex_bytes() - attribute_bytes();
-    for (const VertexAttribute& attribute : chunk.attributes) {
-      put_attribute(attribute, attribute.info.type == SampleType::f16, to, vertex_bytes());
-      to += stored_bytes(attribute.info);
-    }
-    piece.take_made();
-  } else if (object_.precision == Precision::f64) {
-    piece.take(chunk.positions_f64);
-  } else {
-    piece.take(chunk.positions);
-  }
-}
-
-void PlySink::make_face_piece(const MeshChunk& chunk, Piece& piece) const {
-  // Ids fit 32 bits: more than 2^32 vertices are refused.
-  const auto ids = [base = static_cast<std::uint32_t>(chunk.index_base),
-                    first = chunk.indices.data()](std::size_t i) {
-    const std::uint32_t* id = first + 3 * i;
-    return Ids{base + id[0], base + id[1], base + id[2]};
-  };
-  if (options_.ascii) {
-    make_lines(chunk.n_triangles(), kFaceLine, piece.made, [&](std::size_t i, char* at) {
-      const Ids three = ids(i);
-      const std::array<std::uint64_t, 3> wide{three[0], three[1], three[2]};
-      at = print_triple(print_text(at, "3 "), wide.data());
-      *at++ = '\n';
-      return at;
-    });
-  } else {
-    make_records(chunk.n_triangles(), kFaceBytes, piece.made, [&](std::size_t i, std::byte* at) {
-      const Ids three = ids(i);
-      *at = std::byte{3};
-      std::memcpy(at + 1, three.data(), sizeof three);
-    });
-  }
   piece.take_made();
 }
 
+void PlySink::print_faces(const MeshChunk& chunk, Piece& piece) const {
+  make_lines(chunk.n_triangles(), kFaceLine, piece.made, [&](std::size_t i, char* at) {
+    std::array<std::uint64_t, 3> ids{};
+    for (std::size_t c = 0; c < 3; ++c) ids[c] = chunk.index_base + chunk.indices[3 * i + c];
+    at = print_triple(print_text(at, "3 "), ids.data());
+    *at++ = '\n';
+    return at;
+  });
+  piece.take_made();
+}
+
+/// Whether a vertex is no more than its position, as chunks hold it.
+bool PlySink::has_plain_positions() const {
+  return !object_.has_normals && object_.attributes.empty();
+}
+
+auto PlySink::vertex_encoder(const MeshChunk& chunk) const {
+  return [this, &chunk](std::size_t first, std::size_t last, std::byte* to) {
+    put_vertices(chunk, first, last, attribute_bytes(), to);
+    to += vertex_bytes() - attribute_bytes();
+    for (const VertexAttribute& attribute : chunk.attributes) {
+      put_attribute(attribute, {first, last}, attribute.info.type == SampleType::f16, to,
+                    vertex_bytes());
+      to += stored_bytes(attribute.info);
+    }
+  };
+}
+
 void PlySink::format(const MeshChunk& chunk, std::size_t slot) {
-  make_vertex_piece(chunk, slots_[slot].vertices);
-  make_face_piece(chunk, slots_[slot].faces);
+  auto& [vertices, faces] = slots_[slot];
+  if (options_.ascii) {
+    print_vertices(chunk, vertices);
+    return print_faces(chunk, faces);
+  }
+  if (has_plain_positions()) {
+    object_.precision == Precision::f64 ? vertices.take(chunk.positions_f64)
+                                        : vertices.take(chunk.positions);
+  } else {
+    vertices_->format_records(chunk.n_vertices(), vertex_bytes(), vertices, vertex_encoder(chunk));
+  }
+  faces_->format_records(chunk.n_triangles(), kFaceBytes, faces, face_encoder(chunk));
 }
 
 void PlySink::place(const MeshChunk& chunk, std::size_t slot) {
@@ -310,9 +321,15 @@ void PlySink::place(const MeshChunk& chunk, std::size_t slot) {
   faces_->place(slots_[slot].faces);
 }
 
-void PlySink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
-  vertices_->write(slots_[slot].vertices);
-  faces_->write(slots_[slot].faces);
+void PlySink::write(const MeshChunk& chunk, std::size_t slot) {
+  auto& [vertices, faces] = slots_[slot];
+  if (options_.ascii || has_plain_positions()) {
+    vertices_->write(vertices);
+  } else {
+    vertices_->write_records(chunk.n_vertices(), vertex_bytes(), vertices, vertex_encoder(chunk));
+  }
+  if (options_.ascii) return faces_->write(faces);
+  faces_->write_records(chunk.n_triangles(), kFaceBytes, faces, face_encoder(chunk));
 }
 
 void PlySink::end_object(const MeshTotals& /*totals*/) {

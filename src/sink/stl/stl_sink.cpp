@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: MIT
 #include "sink/stl/stl_sink.hpp"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.hpp"
-#include "base/vectors.hpp"
 #include "sink/formats.hpp"
 #include "sink/object_counts.hpp"
 #include "sink/output_file.hpp"
 #include "sink/part.hpp"
-#include "sink/records.hpp"
-#include "sink/text.hpp"
+#include "sink/stl/facets.hpp"
 
-// STL (3D Systems, 1988): three positions a facet, no vertices. A triangle may name a vertex of a
-// later chunk, so positions and triangles are spooled and joined at the end. Facet normals are
-// those of the positions as stored, computed in double and rounded once.
+// STL (3D Systems, 1988): three positions a facet, no vertices. The facets of a binary file have
+// their place as soon as those before them are counted. Of each chunk
+//
+//     |---- head: written with the chunk ----|--- tail: written with the next chunk ---|
+//
+// the tail begins with the first triangle that names a vertex of a later chunk. It keeps the
+// positions that it needs, and the next chunk has the others: dense volumes are written in one
+// pass. What the next chunk cannot complete either (sparse volumes), text, and streams, whose count
+// of facets comes first, is joined at the end: the positions of all vertices and these triangles
+// are spooled.
 
 namespace mc::sink {
 
@@ -27,28 +33,10 @@ namespace {
 constexpr std::uint64_t kMostFacets = 0xFFFFFFFF;
 constexpr std::uint64_t kMostVertices = std::uint64_t{1} << 32;  // of a spooled index
 constexpr std::size_t kHeaderBytes = 80;
-constexpr std::size_t kFacetBytes = 50;  // normal, three positions, two bytes of attributes
+constexpr std::size_t kFacetsAt = kHeaderBytes + sizeof(std::uint32_t);
 
 // A block is just larger than what the file layer would gather first.
 constexpr std::size_t kFacetsAtOnce = kBufferBytes / kFacetBytes + 1;
-
-using Triple = std::array<float, 3>;
-using Facet = std::array<Triple, 3>;
-using Ids = std::array<std::uint32_t, 3>;
-
-/// Unit normal by the right hand, zero where the facet has no area or is not finite.
-Triple facet_normal(const Facet& corner) {
-  const auto widened = [](const Triple& p) { return Vec3{p[0], p[1], p[2]}; };
-  const Vec3 first = widened(corner[0]);
-  const Vec3 n = cross(minus(widened(corner[1]), first), minus(widened(corner[2]), first));
-  const double area = length(n);  // of the parallelogram
-  if (!(area > 0) || !std::isfinite(area)) return {};
-  Triple unit{};
-  for (std::size_t a = 0; a < 3; ++a) {
-    unit[a] = static_cast<float>(n[a] / area) + 0.0F;  // no negative zero
-  }
-  return unit;
-}
 
 /// The positions of all vertices as stored, and what a message calls the output.
 struct Joined {
@@ -56,40 +44,55 @@ struct Joined {
   std::uint64_t n_vertices;
   const std::string& place;
 
-  [[nodiscard]] Facet facet(const Ids& ids) const {
-    Facet corner{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (ids[c] >= n_vertices) {
-        throw Error(ErrorKind::internal, place, "a triangle names no vertex");
-      }
-      std::memcpy(corner[c].data(), &positions[ids[c] * sizeof(Triple)], sizeof(Triple));
+  const float* operator()(std::uint32_t id) const {
+    if (id >= n_vertices) {
+      throw Error(ErrorKind::internal, place, "a triangle names no vertex");
     }
-    return corner;
+    return reinterpret_cast<const float*>(positions.data()) + std::size_t{3} * id;
   }
 };
 
-void encode_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::byte>& to) {
-  make_records(ids.size(), kFacetBytes, to, [&](std::size_t i, std::byte* at) {
-    const Facet corner = joined.facet(ids[i]);
-    const Triple normal = facet_normal(corner);
-    std::memcpy(at, normal.data(), sizeof normal);
-    std::memcpy(at + sizeof normal, corner.data(), sizeof corner);
-    std::memset(at + sizeof normal + sizeof corner, 0, kFacetBytes - sizeof normal - sizeof corner);
-  });
+/// The end of a chunk, to be completed by the next.
+struct Tail {
+  Buffer<Ids> triangles;    ///< vertices count from the first of `positions`
+  Buffer<float> positions;  ///< of the last vertices of the chunk
+  std::uint64_t first_vertex = 0, first_triangle = 0;
+  std::uint32_t max_id = 0;
+
+  [[nodiscard]] bool empty() const { return triangles.empty(); }
+  [[nodiscard]] std::size_t n_vertices() const { return positions.size() / 3; }
+  void clear() {
+    triangles.clear();
+    positions.clear();
+  }
+};
+
+/// The triangles of a chunk as they lie in it.
+std::span<const Ids> triangles_of(const MeshChunk& chunk) {
+  static_assert(sizeof(Ids) == 3 * sizeof(std::uint32_t));
+  return {reinterpret_cast<const Ids*>(chunk.indices.data()), chunk.n_triangles()};
 }
 
-void print_facets(const Joined& joined, std::span<const Ids> ids, Buffer<std::byte>& to) {
-  constexpr LineBytes kFacet{100 + 4 * kMostTriple, 100 + 4 * kFloatTriple};
-  make_lines(ids.size(), kFacet, to, [&](std::size_t i, char* at) {
-    const Facet corner = joined.facet(ids[i]);
-    at = print_triple(print_text(at, "facet normal "), facet_normal(corner).data());
-    at = print_text(at, "\n outer loop\n");
-    for (const Triple& p : corner) {
-      at = print_triple(print_text(at, "  vertex "), p.data());
-      *at++ = '\n';
-    }
-    return print_text(at, " endloop\nendfacet\n");
-  });
+/// Takes triangles [first, end) of the chunk, and of its positions those from their lowest vertex.
+void take_tail(const MeshChunk& chunk, std::size_t first, std::span<const float> positions,
+               Tail& tail) {
+  tail.clear();
+  const std::span<const Ids> triangles = triangles_of(chunk).subspan(first);
+  if (triangles.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(
+      chunk.indices.begin() + static_cast<std::ptrdiff_t>(3 * first), chunk.indices.end());
+  const std::size_t first_kept = std::min<std::size_t>(*lowest, chunk.n_vertices());
+  const auto base = static_cast<std::uint32_t>(first_kept);
+  make_room(tail.triangles, chunk.indices.capacity() / 3);
+  for (const Ids& ids : triangles) {
+    tail.triangles.push_back({ids[0] - base, ids[1] - base, ids[2] - base});
+  }
+  const std::span<const float> own = positions.subspan(3 * first_kept);
+  make_room(tail.positions, chunk.positions.capacity() + chunk.positions_f64.capacity());
+  tail.positions.assign(own.begin(), own.end());
+  tail.first_vertex = first_kept;
+  tail.first_triangle = first;
+  tail.max_id = *highest - base;
 }
 
 class StlSink final : public MeshSink {
@@ -97,7 +100,8 @@ class StlSink final : public MeshSink {
   StlSink(const std::string& path, const SinkOptions& options, std::uint64_t most_facets)
       : options_(options),
         most_facets_(most_facets),
-        out_(path, output_options(options, !options.ascii)) {}
+        out_(path, output_options(options, !options.ascii)),
+        in_place_(!options.ascii && out_.seekable()) {}
 
   void set_slots(std::size_t n_slots) override { slots_.resize(n_slots); }
   void begin_object(const MeshObject& object) override;
@@ -108,22 +112,43 @@ class StlSink final : public MeshSink {
   void finish() override;
 
  private:
-  void check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) const;
-  [[nodiscard]] std::string header() const;
-  void write_facets();
-
   struct Slot {
-    Piece positions, triangles;
+    Piece positions;         // to the spool
+    Piece late_tail, late;   // triangles to the spool: of the chunk before, and of this one
+    Buffer<float> rounded;   // positions that came in double precision
+    std::size_t n_head = 0;  // triangles whose vertices are all in the chunk
+    Tail tail;               // the others
+    std::uint64_t first_triangle = 0;  // of the chunk
+    Tail before;                       // of the chunk before, which this one completes
+    Piece block;                       // of facets
   };
+  /// Triangles that are spooled one after the other.
+  struct LateRun {
+    std::uint64_t first_triangle, n_triangles;
+  };
+
+  void check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) const;
+  [[nodiscard]] std::string header(std::uint64_t n_triangles) const;
+  [[nodiscard]] std::span<const float> positions_of(const MeshChunk& chunk, const Slot& s) const;
+  void place_late(std::uint64_t first_triangle, std::uint64_t n_triangles, Piece& piece);
+  void place_tail(std::uint64_t n_vertices, Slot& s);
+  void spool_tail(Piece& piece);
+  void write_facets(std::span<const Ids> triangles, std::uint64_t first, Piece& block,
+                    const auto& position_of) const;
+  void write_late_facets();
 
   SinkOptions options_;
   std::uint64_t most_facets_;
   OutputFile out_;
+  bool in_place_;  // facets can be written before those that come first in the file
   MeshObject object_;
   bool begun_ = false;
   ObjectCounts counts_;
+  Tail tail_;  // of the last chunk that has its place
   std::optional<SpoolFile> position_spool_, triangle_spool_;
   std::optional<Part> positions_, triangles_;
+  std::optional<Part> facets_;  // if they are written in place
+  std::vector<LateRun> late_runs_;
   std::vector<Slot> slots_{1};
 };
 
@@ -134,8 +159,9 @@ void StlSink::check_limits(std::uint64_t n_vertices, std::uint64_t n_triangles) 
               "write .obj, or one --region at a time");
 }
 
-/// 80 bytes that do not begin with "solid", by which readers tell the text form.
-std::string StlSink::header() const {
+/// Of the binary form: 80 bytes that do not begin with "solid", by which readers tell the text
+/// form, and the count.
+std::string StlSink::header(std::uint64_t n_triangles) const {
   std::string text = "binary STL";
   for (const auto& [key, value] : options_.provenance) {
     const std::string more = "; " + on_one_line(key) + ": " + on_one_line(value);
@@ -144,6 +170,9 @@ std::string StlSink::header() const {
     }
   }
   text.resize(kHeaderBytes, ' ');
+  const auto n = static_cast<std::uint32_t>(n_triangles);
+  text.resize(kFacetsAt);
+  std::memcpy(&text[kHeaderBytes], &n, sizeof n);
   return text;
 }
 
@@ -156,95 +185,206 @@ void StlSink::begin_object(const MeshObject& object) {
   check_limits(object.n_vertices.value_or(0), object.n_triangles.value_or(0));
   positions_.emplace(position_spool_.emplace(out_).writer(), 0);
   triangles_.emplace(triangle_spool_.emplace(out_).writer(), 0);
+  if (in_place_) {
+    out_.append(header(0));
+    facets_.emplace(out_.writer(), kFacetsAt);
+  }
+}
+
+std::span<const float> StlSink::positions_of(const MeshChunk& chunk, const Slot& s) const {
+  return object_.precision == Precision::f64 ? s.rounded : chunk.positions;
 }
 
 void StlSink::format(const MeshChunk& chunk, std::size_t slot) {
-  auto& [positions, triangles] = slots_[slot];
+  Slot& s = slots_[slot];
   if (object_.precision == Precision::f64) {
-    make_records(chunk.positions_f64.size(), sizeof(float), positions.made,
-                 [p = chunk.positions_f64.data()](std::size_t i, std::byte* at) {
-                   const auto rounded = static_cast<float>(p[i]);
-                   std::memcpy(at, &rounded, sizeof rounded);
-                 });
-    positions.take_made();
+    make_room(s.rounded, chunk.positions_f64.size());
+    s.rounded.resize(chunk.positions_f64.size());
+    std::ranges::transform(chunk.positions_f64, s.rounded.begin(),
+                           [](double x) { return static_cast<float>(x); });
+    s.positions.take(s.rounded);
   } else {
-    positions.take(chunk.positions);
+    s.positions.take(chunk.positions);
   }
-  make_records(chunk.indices.size(), sizeof(std::uint32_t), triangles.made,
-               [base = static_cast<std::uint32_t>(chunk.index_base), ids = chunk.indices.data()](
-                   std::size_t i, std::byte* at) {
-                 const std::uint32_t id = base + ids[i];
-                 std::memcpy(at, &id, sizeof id);
-               });
-  triangles.take_made();
+  s.n_head = 0;
+  if (!in_place_) return;
+  const std::span<const Ids> triangles = triangles_of(chunk);
+  const auto is_late = [n = chunk.n_vertices()](const Ids& ids) {
+    return std::max({ids[0], ids[1], ids[2]}) >= n;
+  };
+  s.n_head = static_cast<std::size_t>(std::ranges::find_if(triangles, is_late) - triangles.begin());
+  take_tail(chunk, s.n_head, positions_of(chunk, s), s.tail);
+}
+
+/// Gives triangles a place in the spool.
+void StlSink::place_late(std::uint64_t first_triangle, std::uint64_t n_triangles, Piece& piece) {
+  if (n_triangles == 0) return;
+  const bool goes_on =
+      !late_runs_.empty() &&
+      late_runs_.back().first_triangle + late_runs_.back().n_triangles == first_triangle;
+  if (!goes_on) late_runs_.push_back({first_triangle, 0});
+  late_runs_.back().n_triangles += n_triangles;
+  triangles_->place(piece);
+}
+
+/// Leaves the triangles of the last tail to the end.
+void StlSink::spool_tail(Piece& piece) {
+  Buffer<std::byte>& to = piece.made;
+  make_room(to, tail_.triangles.size() * sizeof(Ids));
+  to.resize(tail_.triangles.size() * sizeof(Ids));
+  const auto base = static_cast<std::uint32_t>(tail_.first_vertex);
+  std::byte* at = to.data();
+  for (const Ids& ids : tail_.triangles) {
+    const Ids all{base + ids[0], base + ids[1], base + ids[2]};
+    std::memcpy(at, all.data(), sizeof all);
+    at += sizeof all;
+  }
+  piece.take_made();
+  place_late(tail_.first_triangle, tail_.triangles.size(), piece);
+  tail_.clear();
+}
+
+/// Hands the tail of the chunk before to this one, if its `n_vertices` complete it.
+void StlSink::place_tail(std::uint64_t n_vertices, Slot& s) {
+  s.before.clear();
+  s.late_tail.announce(0);
+  if (tail_.empty()) return;
+  if (tail_.max_id < tail_.n_vertices() + n_vertices) {
+    std::swap(tail_, s.before);
+  } else {
+    spool_tail(s.late_tail);
+  }
 }
 
 void StlSink::place(const MeshChunk& chunk, std::size_t slot) {
+  Slot& s = slots_[slot];
+  const std::uint64_t first_vertex = counts_.n_vertices, first_triangle = counts_.n_triangles;
   counts_.add(object_, chunk);
   check_limits(counts_.n_vertices, counts_.n_triangles);
-  positions_->place(slots_[slot].positions);
-  triangles_->place(slots_[slot].triangles);
+  positions_->place(s.positions);
+  place_tail(chunk.n_vertices(), s);
+  s.late.announce(0);
+  if (!in_place_ || chunk.index_base != first_vertex) {
+    s.n_head = 0;
+    s.late.announce(chunk.n_triangles() * sizeof(Ids));
+    return place_late(first_triangle, chunk.n_triangles(), s.late);
+  }
+  s.first_triangle = first_triangle;
+  if (s.tail.empty()) return;
+  s.tail.first_vertex += first_vertex;
+  s.tail.first_triangle += first_triangle;
+  std::swap(tail_, s.tail);
 }
 
-void StlSink::write(const MeshChunk& /*chunk*/, std::size_t slot) {
-  positions_->write(slots_[slot].positions);
-  triangles_->write(slots_[slot].triangles);
+/// Writes facets from triangle `first` of the file on.
+void StlSink::write_facets(std::span<const Ids> triangles, std::uint64_t first, Piece& block,
+                           const auto& position_of) const {
+  block.at = kFacetsAt + first * kFacetBytes;
+  facets_->write_records(triangles.size(), kFacetBytes, block,
+                         [&](std::size_t from, std::size_t to, std::byte* at) {
+                           encode_facets(triangles.subspan(from, to - from), at, position_of);
+                         });
+}
+
+void StlSink::write(const MeshChunk& chunk, std::size_t slot) {
+  Slot& s = slots_[slot];
+  positions_->write(s.positions);
+  triangles_->write(s.late_tail);
+  if (s.late.n_bytes != 0) {
+    triangles_->write_records(chunk.indices.size(), sizeof(std::uint32_t), s.late,
+                              id_encoder<std::uint32_t>(chunk));
+  }
+  const auto own = [p = positions_of(chunk, s).data()](std::uint32_t id) {
+    return p + std::size_t{3} * id;
+  };
+  if (!s.before.empty()) {
+    const auto either = [own, p = s.before.positions.data(),
+                         n = s.before.n_vertices()](std::uint32_t id) {
+      return id < n ? p + std::size_t{3} * id : own(static_cast<std::uint32_t>(id - n));
+    };
+    write_facets(s.before.triangles, s.before.first_triangle, s.block, either);
+  }
+  if (s.n_head != 0)
+    write_facets(triangles_of(chunk).first(s.n_head), s.first_triangle, s.block, own);
 }
 
 void StlSink::end_object(const MeshTotals& /*totals*/) {
   check_announced(out_.place(), object_, counts_);
+  if (!tail_.empty()) {
+    Piece& last = slots_.front().late_tail;
+    spool_tail(last);
+    triangles_->write(last);
+  }
   positions_->end();
   triangles_->end();
 }
 
-/// Joins triangles and positions, block by block. Triangles are read; positions are mapped, since
-/// they are wanted in any order (in practice near one another).
-void StlSink::write_facets() {
+/// Joins spooled triangles and positions, block by block. Triangles are read; positions are mapped,
+/// since they are wanted in any order (in practice near one another).
+void StlSink::write_late_facets() {
+  if (late_runs_.empty()) return;
   const Joined joined{position_spool_->map(), counts_.n_vertices, out_.place()};
   struct Block {
+    std::uint64_t first_triangle, first_spooled;
+    std::size_t n_triangles;
+  };
+  std::vector<Block> blocks;
+  std::uint64_t n_spooled = 0;
+  for (const LateRun& run : late_runs_) {
+    for (std::uint64_t first = 0; first < run.n_triangles; first += kFacetsAtOnce) {
+      const std::uint64_t n = std::min<std::uint64_t>(kFacetsAtOnce, run.n_triangles - first);
+      blocks.push_back(
+          {run.first_triangle + first, n_spooled + first, static_cast<std::size_t>(n)});
+    }
+    n_spooled += run.n_triangles;
+  }
+  struct Made {
     Buffer<Ids> ids;
     Buffer<std::byte> facets;
   };
   slots_ = {};  // chunks are over
-  std::vector<Block> blocks(base::pipeline_slots());
+  std::vector<Made> made(base::pipeline_slots());
   const FileWriter& triangles = triangle_spool_->writer();
   const auto make = [&](std::size_t item, std::size_t slot) {
-    auto& [ids, facets] = blocks[slot];
-    const std::uint64_t first = std::uint64_t{item} * kFacetsAtOnce;
-    ids.resize(static_cast<std::size_t>(
-        std::min<std::uint64_t>(kFacetsAtOnce, counts_.n_triangles - first)));
-    triangles.read_flushed(first * sizeof(Ids), std::as_writable_bytes(std::span(ids)));
-    options_.ascii ? print_facets(joined, ids, facets) : encode_facets(joined, ids, facets);
+    auto& [ids, facets] = made[slot];
+    ids.resize(blocks[item].n_triangles);
+    triangles.read_flushed(blocks[item].first_spooled * sizeof(Ids),
+                           std::as_writable_bytes(std::span(ids)));
+    if (options_.ascii) return print_facets(ids, facets, joined);
+    make_records(0, ids.size(), kFacetBytes, facets,
+                 [&](std::size_t /*first*/, std::size_t /*last*/, std::byte* at) {
+                   encode_facets(ids, at, joined);
+                 });
   };
-  const std::array<base::Step, 2> steps{
-      {{false, make},
-       {true, [&](std::size_t /*item*/, std::size_t slot) { out_.append(blocks[slot].facets); }}}};
-  const std::uint64_t n_blocks = (counts_.n_triangles + kFacetsAtOnce - 1) / kFacetsAtOnce;
-  base::pipeline(static_cast<std::size_t>(n_blocks), blocks.size(), steps);
+  const auto put = [&](std::size_t item, std::size_t slot) {
+    if (!in_place_) return out_.append(made[slot].facets);
+    out_.write_at(kFacetsAt + blocks[item].first_triangle * kFacetBytes, made[slot].facets);
+  };
+  const std::array<base::Step, 2> steps{{{false, make}, {true, put}}};
+  base::pipeline(blocks.size(), made.size(), steps);
 }
 
 void StlSink::finish() {
   if (!begun_) {
     begin_object({});
   }
-  if (options_.ascii) {
-    out_.append("solid mc\n");
-    write_facets();
-    out_.append("endsolid mc\n");
+  const std::string head = options_.ascii ? "solid mc\n" : header(counts_.n_triangles);
+  if (in_place_) {
+    out_.skip(counts_.n_triangles * kFacetBytes);
+    out_.write_at(0, std::as_bytes(std::span(head)));
   } else {
-    out_.append(header());
-    const auto n = static_cast<std::uint32_t>(counts_.n_triangles);
-    out_.append(std::as_bytes(std::span(&n, 1)));
-    write_facets();
+    out_.append(head);
   }
+  write_late_facets();
+  if (options_.ascii) out_.append("endsolid mc\n");
   out_.commit();
 }
 
 }  // namespace
 
 MeshNeeds stl_needs(const SinkOptions& /*options*/, bool /*f32_moves*/) {
-  // Of a chunk: positions as floats, ids of the whole mesh.
-  return {.formatted = {.vertex_bytes = 12, .triangle_bytes = 12}};
+  // Of a chunk: positions as floats and ids, once more of the tail before it.
+  return {.formatted = {.vertex_bytes = 24, .triangle_bytes = 24}};
 }
 
 std::unique_ptr<MeshSink> open_stl(const std::string& path, const SinkOptions& options) {

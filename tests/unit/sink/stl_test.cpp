@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+#include <random>
+#include <span>
+#include <vector>
 
 #include "unit/sink/sink_support.hpp"
 
@@ -46,6 +50,66 @@ TEST(Stl, EveryWayGivesTheSameBytes) {
     for (const Way& way : all_ways()) {
       EXPECT_EQ(written({}, stl(ascii), way), expected) << way.stream << way.counts << way.cut;
       EXPECT_EQ(written({.has_normals = true}, stl(ascii), way), expected);
+    }
+  }
+}
+
+/// Random triangles of vertices that lie anywhere, cut into chunks, some of which name vertices of
+/// the whole mesh. Chunks are taken as a run with several slots takes them: the one before is
+/// written when the next has its place.
+std::string written_in_chunks(std::size_t reach, std::size_t n_chunks, bool ascii,
+                              std::uint64_t seed) {
+  constexpr std::size_t kVertices = 200, kTriangles = 3 * kVertices, kSlots = 3;
+  std::mt19937_64 random(seed);
+  Buffer<float> positions;
+  for (std::size_t n = 0; n < 3 * kVertices; ++n) {
+    positions.push_back(static_cast<float>(random() % 1000) / 8);
+  }
+  Buffer<std::uint32_t> indices;
+  for (std::size_t t = 0; t < kTriangles; ++t) {
+    const std::size_t first = (t + 2) / 3;  // at least the first vertex of its chunk
+    for (int c = 0; c < 3; ++c) {
+      indices.push_back(
+          static_cast<std::uint32_t>(std::min(kVertices - 1, first + random() % reach)));
+    }
+  }
+  std::vector<MeshChunk> chunks(n_chunks);
+  for (std::size_t n = 0; n < n_chunks; ++n) {
+    const auto part = [&](const auto& all, std::size_t size) {
+      return std::span(all).subspan(3 * (size * n / n_chunks),
+                                    3 * (size * (n + 1) / n_chunks - size * n / n_chunks));
+    };
+    const auto own = part(positions, kVertices);
+    chunks[n].positions.assign(own.begin(), own.end());
+    chunks[n].index_base = n % 4 == 3 ? 0 : kVertices * n / n_chunks;
+    for (const std::uint32_t id : part(indices, kTriangles)) {
+      chunks[n].indices.push_back(static_cast<std::uint32_t>(id - chunks[n].index_base));
+    }
+  }
+  const TemporaryFolder folder;
+  const auto sink = open_mesh_sink(folder / "a.stl", stl(ascii));
+  sink->set_slots(kSlots);
+  sink->begin_object({});
+  for (std::size_t n = 0; n <= n_chunks; ++n) {
+    if (n < n_chunks) {
+      sink->format(chunks[n], n % kSlots);
+      sink->place(chunks[n], n % kSlots);
+    }
+    if (n > 0) sink->write(chunks[n - 1], (n - 1) % kSlots);
+  }
+  sink->end_object({});
+  sink->finish();
+  return read_all(folder / "a.stl");
+}
+
+TEST(Stl, TrianglesMayNameVerticesOfAnyChunk) {
+  for (const bool ascii : {false, true}) {
+    for (const std::size_t reach : {1U, 10U, 30U, 60U, 200U}) {
+      const std::string whole = written_in_chunks(reach, 1, ascii, reach);
+      ASSERT_GT(whole.size(), 600U * 50);
+      for (const std::size_t n_chunks : {2U, 5U, 11U, 40U}) {
+        EXPECT_EQ(written_in_chunks(reach, n_chunks, ascii, reach), whole) << reach << n_chunks;
+      }
     }
   }
 }
