@@ -27,6 +27,10 @@ constexpr std::int32_t kDearLayers = 61;  // 64 planes
 constexpr std::uint64_t kDearSlabBytes = 64U << 20U;
 constexpr int kTasksAThread = 4;
 
+// Layers that an estimate looks at: of a large volume, less than 2 % of the planes.
+constexpr std::int64_t kLayersPerSample = 100;
+constexpr std::int64_t kLeastSamples = 4;
+
 class DenseTasks final : public TaskList {
  public:
   DenseTasks(const PlaneInput& input, const RunOptions& options)
@@ -97,6 +101,27 @@ class DenseTasks final : public TaskList {
   }
   void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) override {
     bands_->make(piece, maker, out.chunk, out.totals);
+  }
+  [[nodiscard]] std::optional<std::uint64_t> estimate_triangles() const override {
+    ExtractOptions plain = extract_;  // needs only the two planes of a layer
+    plain.normals = Normals::none;
+    plain.measure = false;
+    const auto engine = method_.dense(planes_.input.volume(), to_world_, plain);
+    const std::int64_t n_layers = range_.last - range_.first;
+    const std::int64_t n_seen =
+        std::min(n_layers, std::max(n_layers / kLayersPerSample, kLeastSamples));
+    SurfaceTotals totals;
+    Slab slab;
+    for (std::int64_t n = 0; n < n_seen; ++n) {
+      const auto layer =
+          static_cast<std::int32_t>(range_.first + (2 * n + 1) * n_layers / (2 * n_seen));
+      const auto [k0, k1] = engine->planes_for(layer, layer + 1);
+      planes_.read(k0, k1, slab);
+      engine->count(slab, layer, layer + 1, totals);
+    }
+    return n_seen == 0 ? 0
+                       : totals.n_triangles * static_cast<std::uint64_t>(n_layers) /
+                             static_cast<std::uint64_t>(n_seen);
   }
   void count(std::size_t n, std::size_t slot, TaskResult& out) override {
     Slot& s = slots_[slot];

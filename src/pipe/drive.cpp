@@ -168,14 +168,16 @@ MeshTotals Drive::Work::counts(std::size_t first, std::size_t stride) {
   return counted.totals({});
 }
 
-/// Whether counts are worth a read of all samples, judged by some of the tasks. Measured on files
-/// in memory: spooling a triangle costs as much as counting 22 samples. A mesh of more than ten
-/// million triangles may be more than a format can hold, which is better known before the work.
+/// Whether counts are worth a read of all samples, judged by a few layers or some of the tasks.
+/// Measured on files in memory: spooling a triangle costs as much as counting 22 samples. A mesh of
+/// more than ten million triangles may be more than a format can hold, which is better known before
+/// the work.
 bool Drive::Work::is_large() {
   constexpr std::size_t kStride = 16;
   constexpr std::uint64_t kSamplesPerTriangle = 22, kMany = 10'000'000;
-  const std::uint64_t about = kStride * counts(kStride / 2, kStride).n_triangles;
-  return about > kMany || about * kSamplesPerTriangle > n_samples();
+  std::optional<std::uint64_t> about = tasks.estimate_triangles();
+  if (!about) about = kStride * counts(kStride / 2, kStride).n_triangles;
+  return *about > kMany || *about * kSamplesPerTriangle > n_samples();
 }
 
 void Drive::Work::count(bool allow_empty) {

@@ -94,6 +94,11 @@ class TaskList {
   virtual void make_piece(std::size_t piece, std::size_t maker, TaskResult& out) = 0;
   /// What all tasks will find, if that is known already.
   [[nodiscard]] virtual std::optional<Counts> known_counts() const { return std::nullopt; }
+  /// About how many triangles all tasks will make, judged by a few layers; null: unknown. After
+  /// set_room().
+  [[nodiscard]] virtual std::optional<std::uint64_t> estimate_triangles() const {
+    return std::nullopt;
+  }
   /// Only counts.
   virtual void count(std::size_t n, std::size_t slot, TaskResult& out) = 0;
   /// Bytes that a run holds beside chunks.
