@@ -237,7 +237,7 @@ struct Slab {
   std::vector<const std::byte*> planes;
   std::size_t row_stride_bytes = 0;
   Buffer<std::byte> storage;
-  /// Memory of a source's own that several slabs point into (streams): it stays while one does.
+  /// Memory of a source's own that several slabs point into: it stays while one does.
   std::vector<std::shared_ptr<const std::byte>> shared;
   SideMap sides;
 };
@@ -296,6 +296,10 @@ class SlabReader {
   [[nodiscard]] virtual bool reads_boxes_cheaply() const { return false; }
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
+  /// A reader of the same planes that copies them, if that is faster than what read() does; its
+  /// slabs share planes through Slab::shared. It refers to this reader, and its own volume() may
+  /// lie elsewhere in the world. Null: there is none.
+  [[nodiscard]] virtual std::unique_ptr<SlabReader> copies() const { return nullptr; }
   /// What the volume's vertices carry; all of them pass check_attributes().
   [[nodiscard]] virtual AttributeReaders attributes() const { return {}; }
   /// Memory that it holds from plane to plane, pages of mapped files aside.

@@ -25,6 +25,10 @@ struct SourceFormat;
 /// Rows of formats. The rows are borrowed: they must outlive the calls that they are given to.
 using SourceFormats = std::span<const SourceFormat* const>;
 
+/// How dense samples of a file reach the memory of a run: through a mapping, or as copies of
+/// planes.
+enum class Reading : std::uint8_t { fastest, mapped, copied };
+
 /// What the user says of the input; everything unset is read from the file.
 struct SourceOptions {
   std::string from;                 ///< SourceFormat::name; empty: decide
@@ -46,6 +50,8 @@ struct SourceOptions {
   /// What the run may hold. Values of a VDB that are more than half of it stay in their file, and
   /// are unpacked where they are looked at.
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;
+  /// For tests and measurements: the mesh is the same. Files that cannot be copied are mapped.
+  Reading reading = Reading::fastest;
   /// Formats beside source_formats(). They are recognised after those, but before the ones that are
   /// known by name only.
   SourceFormats further_formats{};

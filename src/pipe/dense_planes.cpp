@@ -2,7 +2,9 @@
 #include "pipe/dense_planes.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "base/parallel.hpp"
 #include "extract/bits/threshold.hpp"
 
 namespace mc::pipe {
@@ -17,6 +19,24 @@ DensePlanes::DensePlanes(const PlaneInput& from, const RunOptions& options) : in
   }
   plane_bytes = static_cast<std::uint64_t>(volume.lattice.box.extent(0)) *
                 static_cast<std::uint64_t>(volume.lattice.box.extent(1)) * sample_size(volume.type);
+}
+
+void DensePlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
+  reads_copies_ ? copies_->read(k0, k1, out) : input.read(k0, k1, query, out);
+}
+
+std::uint64_t DensePlanes::hold_copies(std::uint64_t n_planes, std::uint64_t bytes) {
+  // Larger planes leave the caches between copy and use.
+  constexpr std::uint64_t kMostBytesAThread = 32U << 20U;
+  const std::uint64_t most =
+      std::min(bytes, kMostBytesAThread * static_cast<std::uint64_t>(base::thread_count()));
+  const std::uint64_t n_bytes = n_planes * plane_bytes;
+  const std::uint64_t wanted = n_samples * sample_size(input.volume().type);  // of a plane
+  reads_copies_ = false;
+  if (n_bytes > most || wanted < plane_bytes / 2) return 0;
+  if (!std::exchange(has_tried_, true)) copies_ = input.copies();
+  reads_copies_ = copies_ != nullptr;
+  return reads_copies_ ? n_bytes : 0;
 }
 
 std::int32_t shared_planes(const SlabEngine& engine) {

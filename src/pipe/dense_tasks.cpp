@@ -49,6 +49,9 @@ class DenseTasks final : public TaskList {
     layers_ = given_layers_ > 0 ? given_layers_ : layers_wanted(bytes / n_slots);
     if (!engine_->has_bands()) layers_ = 1;
     layers_ = std::min({layers_, engine_->max_layers(), engine_->n_layers()});
+    const std::uint64_t n_planes =
+        n_slots * static_cast<std::uint64_t>(layers_) + static_cast<std::uint64_t>(shared_planes_);
+    copied_bytes_ = planes_.hold_copies(n_planes, bytes / 2);
   }
   void set_room(const Room& room) override {
     room_ = room;
@@ -133,7 +136,8 @@ class DenseTasks final : public TaskList {
         planes_.input.rereads_cheaply()
             ? 0
             : planes_.plane_bytes * static_cast<std::uint64_t>(layers_ + shared_planes_);
-    return n_slots * (engine_->scratch_bytes() + slab) + engine_->bands_bytes(n_makers);
+    return n_slots * (engine_->scratch_bytes() + slab) + copied_bytes_ +
+           engine_->bands_bytes(n_makers);
   }
   [[nodiscard]] std::uint64_t input_bytes() const override { return planes_.input.held_bytes(); }
   [[nodiscard]] std::uint64_t least_chunk_bytes() const override {
@@ -207,6 +211,7 @@ class DenseTasks final : public TaskList {
   std::vector<Slot> slots_;
   std::unique_ptr<SlabBands> bands_;  ///< made when first needed
   std::int32_t layers_ = 1;
+  std::uint64_t copied_bytes_ = 0;  ///< planes that slots share
 };
 
 }  // namespace

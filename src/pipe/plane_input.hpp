@@ -3,6 +3,7 @@
 
 #include <cassert>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "mc/field.hpp"
@@ -40,6 +41,10 @@ class PlaneInput {
   /// Whether planes are read once, in order, one read at a time.
   [[nodiscard]] bool single_pass() const { return single_pass_; }
   [[nodiscard]] bool rereads_cheaply() const { return !single_pass_ && reader_->rereads_cheaply(); }
+  /// SlabReader::copies().
+  [[nodiscard]] std::unique_ptr<SlabReader> copies() const {
+    return single_pass_ ? nullptr : reader_->copies();
+  }
   [[nodiscard]] std::uint64_t held_bytes() const {
     return single_pass_ ? 0 : reader_->held_bytes();
   }

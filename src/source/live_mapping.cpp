@@ -61,9 +61,13 @@ Entry* free_entry() {
 
 }  // namespace
 
+Error became_shorter(const std::string& place) {
+  return {ErrorKind::input, place, "became shorter while it was read", kRemedy};
+}
+
 std::optional<Error> LiveMapping::Entry::fault() const {
   if (lost) {
-    return Error(ErrorKind::input, place, "became shorter while it was read", kRemedy);
+    return became_shorter(place);
   }
   struct stat now {};
   const char* const path = place == "<stdin>" ? "/dev/stdin" : place.c_str();

@@ -7,10 +7,15 @@
 #include <span>
 #include <string>
 
+#include "mc/base.hpp"
+
 // Files that are mapped, and what becomes of them meanwhile: InputWatch and recover_input() of
 // mc/source.hpp look at these.
 
 namespace mc::source {
+
+/// The fault of a file that ends before bytes that were there when it was opened.
+[[nodiscard]] Error became_shorter(const std::string& place);
 
 /// Notes a mapping from here to its end. What changes under it is found out then at the latest.
 class LiveMapping {

@@ -47,10 +47,12 @@ Descriptor spooled(InputFile input, std::uint64_t most_bytes, Progress& progress
 MappedFile::MappedFile(const std::string& path, std::uint64_t most_bytes)
     : MappedFile(InputFile(path), most_bytes) {}
 
-MappedFile::MappedFile(InputFile input, std::uint64_t most_bytes, Progress& progress)
+MappedFile::MappedFile(InputFile input, std::uint64_t most_bytes, Progress& progress, Keep keep)
     : place_(input.place()) {
-  map(input.mappable() ? std::move(input).descriptor()
-                       : spooled(std::move(input), most_bytes, progress));
+  Descriptor file = input.mappable() ? std::move(input).descriptor()
+                                     : spooled(std::move(input), most_bytes, progress);
+  map(file);
+  if (keep == Keep::open_file) file_ = std::move(file);
 }
 
 MappedFile::MappedFile(std::string place, const Descriptor& file) : place_(std::move(place)) {
@@ -86,13 +88,15 @@ MappedFile::MappedFile(MappedFile&& other) noexcept
     : place_(std::move(other.place_)),
       data_(std::exchange(other.data_, nullptr)),
       size_(std::exchange(other.size_, 0)),
-      live_(std::move(other.live_)) {}
+      live_(std::move(other.live_)),
+      file_(std::move(other.file_)) {}
 
 MappedFile& MappedFile::operator=(MappedFile&& other) noexcept {
   std::swap(place_, other.place_);
   std::swap(data_, other.data_);
   std::swap(size_, other.size_);
   std::swap(live_, other.live_);
+  std::swap(file_, other.file_);
   return *this;
 }
 

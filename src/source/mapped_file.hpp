@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,6 +21,8 @@ namespace mc::source {
 
 class MappedFile {
  public:
+  /// Whether the file stays open beside its mapping: a process may have few files open.
+  enum class Keep : bool { mapping, open_file };
   static constexpr std::uint64_t kUnlimited = std::numeric_limits<std::uint64_t>::max();
 
   /// "-" is stdin. A stream is read up to `most_bytes` and one more, which tells that it is longer;
@@ -29,7 +32,7 @@ class MappedFile {
   explicit MappedFile(const std::string& path, std::uint64_t most_bytes = kUnlimited);
   /// The same of what has been opened; a detail says when a copy is made.
   explicit MappedFile(InputFile input, std::uint64_t most_bytes = kUnlimited,
-                      Progress& progress = silent_progress());
+                      Progress& progress = silent_progress(), Keep keep = Keep::mapping);
   /// Maps a file that is not there by name.
   MappedFile(std::string place, const Descriptor& file);
   ~MappedFile();
@@ -40,6 +43,8 @@ class MappedFile {
 
   [[nodiscard]] std::span<const std::byte> bytes() const { return {data_, size_}; }
   [[nodiscard]] std::string_view text() const;
+  /// The open file; -1 if it was not kept.
+  [[nodiscard]] int descriptor() const { return file_ ? file_->get() : -1; }
   /// How messages name it: the path, or "<stdin>".
   [[nodiscard]] const std::string& place() const { return place_; }
 
@@ -50,6 +55,7 @@ class MappedFile {
   const std::byte* data_ = nullptr;
   std::size_t size_ = 0;
   LiveMapping live_;
+  std::optional<Descriptor> file_;
 };
 
 }  // namespace mc::source

@@ -33,8 +33,8 @@ InputFile take_file(SourceInput& input, std::size_t n) {
   return file;
 }
 
-MappedFile map_file(SourceInput& input, std::size_t n) {
-  return MappedFile(take_file(input, n), MappedFile::kUnlimited, input.state().progress);
+MappedFile map_file(SourceInput& input, std::size_t n, MappedFile::Keep keep) {
+  return MappedFile(take_file(input, n), MappedFile::kUnlimited, input.state().progress, keep);
 }
 
 }  // namespace source

@@ -32,7 +32,8 @@ InputFile& first_file(SourceInput& input);
 /// File n, opened. A second call for the same file opens it again.
 InputFile take_file(SourceInput& input, std::size_t n = 0);
 /// File n, mapped; a stream is copied first.
-MappedFile map_file(SourceInput& input, std::size_t n = 0);
+MappedFile map_file(SourceInput& input, std::size_t n = 0,
+                    MappedFile::Keep keep = MappedFile::Keep::mapping);
 
 }  // namespace source
 

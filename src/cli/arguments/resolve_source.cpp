@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 
@@ -98,6 +100,15 @@ void check_raw_options(const SourceArgs& args, const SourceFormat* named) {
   }
 }
 
+/// MC_READ: for tests and measurements.
+Reading reading_of_environment() {
+  const char* name = std::getenv("MC_READ");
+  if (name == nullptr || *name == '\0') return Reading::fastest;
+  static constexpr std::array<std::pair<std::string_view, Reading>, 2> kReadings{
+      {{"map", Reading::mapped}, {"copy", Reading::copied}}};
+  return parse_choice("MC_READ", name, kReadings);
+}
+
 }  // namespace
 
 SampleType parse_type(const std::string& text) {
@@ -143,6 +154,7 @@ SourceOptions resolve_source(const SourceArgs& args) {
     options.root = *args.root;
   }
   if (args.origin) options.origin = parse_vector("--origin", *args.origin);
+  options.reading = reading_of_environment();
   return options;
 }
 

@@ -202,11 +202,13 @@ VolumeReader open_attached(InputFile file, const NrrdHeader& header, const Volum
   const bool seeks = header.skip_bytes < 0;
   const bool mapped = !header.gzipped && (file.mappable() || seeks || !options.streams);
   if (mapped) {
-    MappedFile whole(std::move(file), MappedFile::kUnlimited, progress);
+    MappedFile whole(std::move(file), MappedFile::kUnlimited, progress,
+                     MappedFile::Keep::open_file);
     const std::size_t at = samples_at(whole, header.size_bytes, n_bytes, header, progress);
     std::vector<PlaneFile> files;
     files.push_back({std::move(whole), at});
-    return std::make_unique<MappedPlanes>(volume, std::move(files), header.dims[2]);
+    return std::make_unique<MappedPlanes>(volume, std::move(files), header.dims[2],
+                                          options.reading);
   }
   if (!options.streams && file.is_stdin() && !file.mappable()) {
     const MappedFile kept(std::move(file), MappedFile::kUnlimited, progress);
@@ -242,13 +244,16 @@ VolumeReader open_detached(const NrrdHeader& header, const std::string& place, c
         std::make_unique<NrrdSamples>(header, data.n_files, part_bytes, open_part, progress),
         options, progress);
   }
+  using Keep = MappedFile::Keep;
+  const Keep keep = data.n_files == 1 ? Keep::open_file : Keep::mapping;
   std::vector<PlaneFile> files;
   for (std::size_t n = 0; n < data.n_files; ++n) {
-    MappedFile file(open(n), MappedFile::kUnlimited, progress);
+    MappedFile file(open(n), MappedFile::kUnlimited, progress, keep);
     const std::size_t at = samples_at(file, 0, part_bytes, header, progress);
     files.push_back({std::move(file), at});
   }
-  return std::make_unique<MappedPlanes>(volume, std::move(files), data.planes_per_file);
+  return std::make_unique<MappedPlanes>(volume, std::move(files), data.planes_per_file,
+                                        options.reading);
 }
 
 }  // namespace

@@ -74,9 +74,10 @@ InputFile open_sized(SourceInput& inputs, std::size_t n, std::uint64_t n_bytes) 
 
 /// A file of known size; of a stream no more was read than one byte too many.
 MappedFile map_sized(InputFile input, std::uint64_t n_bytes, const std::vector<std::int64_t>& dims,
-                     const SourceOptions& options, Progress& progress) {
+                     const SourceOptions& options, Progress& progress,
+                     MappedFile::Keep keep = MappedFile::Keep::mapping) {
   const bool stream = !input.mappable();
-  MappedFile file(std::move(input), n_bytes, progress);
+  MappedFile file(std::move(input), n_bytes, progress, keep);
   if (file.bytes().size() != n_bytes) {
     wrong_size(file.place(), file.bytes().size(), stream && file.bytes().size() == n_bytes + 1,
                dims, options);
@@ -156,14 +157,15 @@ VolumeReader open_sized_volume(SourceInput& inputs, const SourceOptions& options
   }
   std::vector<PlaneFile> files;
   files.push_back(
-      {map_sized(std::move(input), n_bytes, dims, options, progress), options.skip_bytes});
+      {map_sized(std::move(input), n_bytes, dims, options, progress, MappedFile::Keep::open_file),
+       options.skip_bytes});
   return std::make_unique<MappedPlanes>(std::move(volume), std::move(files),
-                                        static_cast<std::int32_t>(dims[2]));
+                                        static_cast<std::int32_t>(dims[2]), options.reading);
 }
 
 /// Of a volume whose planes its size tells.
 std::unique_ptr<SlabReader> open_counted_volume(SourceInput& inputs, const SourceOptions& options) {
-  MappedFile file = map_file(inputs);
+  MappedFile file = map_file(inputs, 0, MappedFile::Keep::open_file);
   const std::int64_t nz = counted_planes(file, options);
   if (nz < 2 || nz > kMostSamples) {
     throw Error(ErrorKind::input, file.place(),
@@ -173,7 +175,7 @@ std::unique_ptr<SlabReader> open_counted_volume(SourceInput& inputs, const Sourc
   std::vector<PlaneFile> files;
   files.push_back({std::move(file), options.skip_bytes});
   return std::make_unique<MappedPlanes>(raw_volume(options, nz), std::move(files),
-                                        static_cast<std::int32_t>(nz));
+                                        static_cast<std::int32_t>(nz), options.reading);
 }
 
 std::unique_ptr<SlabReader> open_series(SourceInput& inputs, const SourceOptions& options,

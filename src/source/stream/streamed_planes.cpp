@@ -3,43 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
-#include <mutex>
 #include <utility>
-#include <vector>
 
 #include "source/mapped_planes.hpp"
 #include "source/stream/spool.hpp"
 
 namespace mc::source {
-
-/// Memory of planes; what no slab points into any more is used again.
-class StreamedPlanes::Pool : public std::enable_shared_from_this<Pool> {
- public:
-  explicit Pool(std::size_t plane_bytes) : plane_bytes_(plane_bytes) {}
-
-  std::shared_ptr<std::byte> take() {
-    Buffer<std::byte>* plane = any_free();
-    plane->resize(plane_bytes_);
-    return {plane->data(), [pool = shared_from_this(), plane](const std::byte* /*data*/) {
-              const std::lock_guard lock(pool->mutex_);
-              pool->free_.push_back(plane);
-            }};
-  }
-
- private:
-  Buffer<std::byte>* any_free() {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty()) return &all_.emplace_back();
-    Buffer<std::byte>* plane = free_.back();
-    free_.pop_back();
-    return plane;
-  }
-
-  std::size_t plane_bytes_;
-  std::mutex mutex_;
-  std::deque<Buffer<std::byte>> all_;
-  std::vector<Buffer<std::byte>*> free_;
-};
 
 StreamedPlanes::StreamedPlanes(Volume volume, std::unique_ptr<SampleStream> samples)
     : volume_(std::move(volume)),
@@ -48,7 +17,7 @@ StreamedPlanes::StreamedPlanes(Volume volume, std::unique_ptr<SampleStream> samp
   const Index3 dims = volume_.lattice.dims();
   row_bytes_ = static_cast<std::size_t>(dims[0]) * sample_size(volume_.type);
   plane_bytes_ = row_bytes_ * static_cast<std::size_t>(dims[1]);
-  pool_ = std::make_shared<Pool>(plane_bytes_);
+  pool_ = std::make_shared<PlanePool>(plane_bytes_);
 }
 
 StreamedPlanes::~StreamedPlanes() = default;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mc/field.hpp"
+#include "source/plane_pool.hpp"
 #include "source/stream/sample_range.hpp"
 
 // Dense samples that pass by once: each plane is read straight into memory that all slabs which
@@ -41,14 +42,13 @@ class StreamedPlanes final : public PlaneStream {
   [[nodiscard]] FieldStatistics statistics() const override { return range_.seen(); }
 
  private:
-  class Pool;
   using Plane = std::shared_ptr<const std::byte>;
 
   Plane next_plane();
 
   Volume volume_;
   std::size_t row_bytes_, plane_bytes_;
-  std::shared_ptr<Pool> pool_;
+  std::shared_ptr<PlanePool> pool_;
   std::unique_ptr<SampleStream> samples_;
   std::deque<Plane> window_;  // planes [next_ - window_.size(), next_)
   std::int32_t next_ = 0;
