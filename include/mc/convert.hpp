@@ -127,6 +127,7 @@ struct ConvertOptions {
   /// inside, border, normals, precision and origin.
   ExtractOptions extract{};
   MeshStages stages{};               ///< applied to the mesh before it is written, in order
+  CubeStages cube_stages{};          ///< applied after `stages`, in order
   std::optional<Normals> normals{};  ///< unset: gradient where the format holds normals, else none
   std::optional<KeepRule> keep{};    ///< components that remain; unset: all
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< the process's budget

@@ -32,6 +32,13 @@ struct Bounds {
   void include(const Bounds& other);
 };
 
+/// How far the vertices of a mesh lie from the mesh that replaced it, in world units. Each of the
+/// two passes of cube stages is measured; these are the sums of both, so the true distances are at
+/// most these.
+struct MeshDistances {
+  double rms = 0, max = 0;
+};
+
 /// What is known of a mesh without holding it. World units.
 struct MeshTotals {
   std::uint64_t n_vertices = 0;
@@ -47,6 +54,8 @@ struct MeshTotals {
   /// Of each attribute, in the order of MeshObject::attributes: vertices whose value was clamped,
   /// as AttributeReader::values_at() counts them.
   std::vector<std::uint64_t> n_clamped;
+  std::uint64_t n_extracted = 0;           ///< triangles before cube stages; 0 without
+  std::optional<MeshDistances> distances;  ///< only if a cube stage measures them
 
   /// V - E + F, with E = (3F + boundary) / 2: exact, since no edge has more than two triangles.
   [[nodiscard]] std::int64_t euler() const;

@@ -47,8 +47,9 @@ struct RunOptions {
   std::optional<KeepRule> keep;             ///< components that remain; unset: all. Not for streams
   CountFirst count_first = CountFirst::no;  ///< ignored for streams, which are read once
   AttributeReaders attributes;              ///< what vertices carry; pass check_attributes()
-  MeshStages stages{};  ///< applied to the mesh on its way to the sink, in order
-  bool skip = true;     ///< let the reader leave out samples far from the surface; same mesh
+  MeshStages stages{};       ///< applied to the mesh on its way to the sink, in order
+  CubeStages cube_stages{};  ///< applied after `stages`, in order; not for parts
+  bool skip = true;          ///< let the reader leave out samples far from the surface; same mesh
   /// MeshNeeds::formatted of the sink, and SinkFormat::attribute_bytes of each attribute.
   Formatted formatted;
   std::function<void(const MemoryNeed&)> tell_need;  ///< called before the work; or empty
@@ -81,9 +82,11 @@ void check_memory(const VolumeReader& reader, const RunOptions& options);
 /// Stages   figures are those of the mesh that they leave. If no stage reaches beyond a chunk and
 ///          one moves vertices, area and volume stay unset: the vertices of a triangle may lie in
 ///          several chunks. If a stage changes counts, the sink learns them at the end, or with
-///          CountFirst::yes from a pass that makes the mesh and applies the stages.
+///          CountFirst::yes from a pass that makes the mesh and applies the stages. So with cube
+///          stages, which count as such.
 /// Errors   empty: no surface (unless allow_empty); limit: memory; those of reader and sink; usage:
-///          a stream with stages that reach beyond a chunk.
+///          a stream with stages that reach beyond a chunk, or with cube stages; a part with cube
+///          stages.
 /// Threads  uses the caller's arena; what the sink receives does not depend on the thread count or
 ///          slab thickness but for where chunks are cut.
 /// Part     of options.extract.part: counts are of the vertices that the part owns; area and volume

@@ -10,7 +10,11 @@
 #include "mc/mesh.hpp"
 
 // Stages: what happens to a mesh between the extraction and the sink. A program adds a stage by a
-// MeshStage of its own and names it in RunOptions::stages or ConvertOptions::stages.
+// MeshStage of its own and names it in RunOptions::stages or ConvertOptions::stages, or by a
+// CubeStage and names it in the cube_stages of these options. The order is fixed: first all
+// MeshStages, then all CubeStages, then the sampling of attributes.
+//
+// MeshStages
 //
 // A run never holds the whole mesh. It hands a stage one window of the mesh after the other, and
 // puts the windows' own parts together. The mesh consists of layers of cells along k:
@@ -24,6 +28,33 @@
 // parameters. It depends neither on where a window begins and ends nor on which part of it is the
 // window's own. Then the output has the same bytes for any number of threads, memory budget and
 // slab thickness.
+//
+// CubeStages
+//
+// These work on the mesh of one cube of cells at a time, in which they may drop and add vertices
+// and triangles. There are two passes. The first cuts the mesh into cubes of n_cells() cells along
+// each edge; the second cuts the result into cubes that are shifted by half of that:
+//
+//     +-------+-------+-------+         . . . . . . . . . . . . .
+//     |       |       |       |         .   +-------+-------+   .
+//     |       |       |       |         .   |       |       |   .
+//     +-------+-------+-------+   then  . --+-------+-------+-- .
+//     |       |       |       |         .   |       |       |   .
+//     |       |       |       |         .   +-------+-------+   .
+//     +-------+-------+-------+         . . . . . . . . . . . . .
+//
+// A triangle belongs to the cube that its centroid lies in. Vertices with triangles in several
+// cubes are the seam, which must stay as it is. What is on the seam of the first pass is almost
+// everywhere inside a cube of the second one. Cubes start at the lowest sample of a dense volume or
+// of the region, and at multiples of n_cells() in a sparse one.
+//
+// The law of cube stages: what a stage makes of a cube depends on nothing but that cube. The edges
+// that have one triangle in the cube (at the seam, and where the mesh has a border) stay as they
+// are, with their vertices. Then the cubes fit together, the mesh has the same boundary edges as
+// before, and the output has the same bytes for any number of threads and memory budget.
+//
+// The mesh then consists of the cubes of the second pass, ordered by (z, y, x). A vertex belongs to
+// the first cube that uses it, so triangles name vertices of their own and of earlier cubes.
 
 namespace mc {
 
@@ -102,5 +133,50 @@ class MeshStage {
 
 /// Stages in the order in which they are applied. Borrowed: they must outlive the run.
 using MeshStages = std::span<const MeshStage* const>;
+
+/// How far vertices lie from a mesh that replaced theirs, in world units.
+struct VertexDistances {
+  std::uint64_t n = 0;     ///< vertices
+  double sum_squares = 0;  ///< of their distances
+  double max = 0;
+};
+
+/// The mesh of a cube of cells, which a stage changes. Vertices of the seam come first.
+struct MeshCube {
+  MeshChunk& mesh;           ///< index_base means nothing here, and attributes are not there yet
+  Vec3 origin{};             ///< MeshObject::origin: positions are relative to it
+  std::size_t n_seam = 0;    ///< the stage leaves vertices [0, n_seam) as and where they are
+  double cell = 1;           ///< cube root of a cell's volume, in world units
+  double n_extracted = 0;    ///< triangles that the surface in this cube had before the first pass
+  std::uint64_t n_mesh = 0;  ///< triangles of the whole mesh before the first pass
+  bool is_last_pass = false;
+  VertexDistances distances{};  ///< set by stages that measure what they change
+};
+
+/// One step of what is done to a mesh, cube by cube. All answers stay the same during a run. If a
+/// run has several, each is applied to a cube in order, in both passes.
+/// Cost     of all cube stages together: the mesh is extracted twice, first to count the triangles
+///          of each cube. A run holds the extracted mesh of two layers of cubes, what is left of
+///          two layers, and one cube for each thread. Streams cannot be read twice.
+class CubeStage {
+ public:
+  virtual ~CubeStage() = default;
+  /// As messages name it, in lower case.
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// Cells along a cube's edge: even, at least 2; the same for all cube stages of a run. The output
+  /// depends on it.
+  [[nodiscard]] virtual std::int32_t n_cells() const { return 64; }
+  [[nodiscard]] virtual StageBytes bytes() const { return {}; }
+  /// Whether it sets MeshCube::distances.
+  [[nodiscard]] virtual bool measures() const { return false; }
+  /// Updates the announced MeshObject, for example its has_normals.
+  virtual void describe(MeshObject& /*object*/) const {}
+  /// Changes a cube. It must not have more vertices or triangles afterwards.
+  /// Threads  several calls at once, with different cubes.
+  virtual void apply(MeshCube& cube) const = 0;
+};
+
+/// Cube stages in the order in which they are applied. Borrowed: they must outlive the run.
+using CubeStages = std::span<const CubeStage* const>;
 
 }  // namespace mc

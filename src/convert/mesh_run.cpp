@@ -14,6 +14,7 @@
 #include "convert/surface_choice.hpp"
 #include "field/volume_attribute.hpp"
 #include "mc/host.hpp"
+#include "process/cube_stage_list.hpp"
 
 namespace mc::conversion {
 
@@ -38,8 +39,8 @@ bool keeps_far_positions(const SinkFormat& format) {
 
 /// Whether to count before making: where counting costs nothing, or one cheap read may be worth it.
 /// Where stages change counts, counting makes the mesh, which costs more than spooling it.
-CountFirst counting_of(const VolumeReader& reader, const process::StageList& stages) {
-  if (stages.change_counts()) return CountFirst::no;
+CountFirst counting_of(const VolumeReader& reader, bool stages_change_counts) {
+  if (stages_change_counts) return CountFirst::no;
   if (!is_dense(reader)) return CountFirst::yes;
   const auto* slabs = std::get_if<std::unique_ptr<SlabReader>>(&reader);
   return slabs != nullptr && (*slabs)->rereads_cheaply() ? CountFirst::if_large : CountFirst::no;
@@ -152,8 +153,8 @@ FieldStatistics MeshRun::measure(std::span<const double> percentiles) {
 void MeshRun::spool_if_read_again() {
   if (!opened_ || !is_stream(opened_->reader)) return;
   const std::vector<IsoChoice>& isos = options_.surface.isos;
-  const bool again =
-      isos.size() > 1 || options_.extract.region || options_.keep || stages_.need_windows();
+  const bool again = isos.size() > 1 || options_.extract.region || options_.keep ||
+                     stages_.need_windows() || !options_.cube_stages.empty();
   if (iso_needs_data(isos, volume()) || (again && !options_.dry_run)) {
     timed("spool", [&] { spool_stream(opened_->reader, progress_); });
   }
@@ -194,8 +195,10 @@ RunOptions MeshRun::run_options(double iso) const {
   options.attributes = attributes_;
   options.memory_bytes = memory_beside(sampled_bytes_, options_.memory_bytes);
   options.keep = options_.keep;
-  options.count_first = counting_of(reader(), stages_);
+  options.count_first =
+      counting_of(reader(), stages_.change_counts() || !options_.cube_stages.empty());
   options.stages = options_.stages;
+  options.cube_stages = options_.cube_stages;
   options.skip = options_.skip;
   options.formatted = needs_.formatted;
   for (const AttributeReader* attribute : attributes_) {
@@ -273,6 +276,8 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
 
 void MeshRun::write() {
   if (!stages_.empty()) progress_.detail(fmt::format("stages: {}", stages_.names()));
+  const process::CubeStageList cube_stages(options_.cube_stages);
+  if (!cube_stages.empty()) progress_.detail(fmt::format("cube stages: {}", cube_stages.names()));
   timed("extract", [&] {
     const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());
     for (const Iso& iso : surface_.isos) report_.totals.push_back(run_one(iso.value, *sink));

@@ -26,6 +26,14 @@ LayerRange chosen_layers(const ExtractOptions& options, const LayerRange& all) {
   return *options.part;
 }
 
+Vec3 cone_apex(const Volume& volume, const RunOptions& options) {
+  const IndexBox box = options.extract.region.value_or(volume.lattice.box);
+  const auto middle = [&](std::size_t a) { return 0.5 * (double(box.lo[a]) + double(box.hi[a])); };
+  Vec3 apex = options.to_world.value_or(volume.lattice.to_world)({middle(0), middle(1), middle(2)});
+  for (std::size_t a = 0; a < 3; ++a) apex[a] -= options.extract.origin[a];
+  return apex;
+}
+
 }  // namespace pipe
 
 LayerRange part_layers(const VolumeReader& reader, const RunOptions& options) {

@@ -9,6 +9,7 @@
 #include "base/parallel.hpp"
 #include "extract/components/selection.hpp"
 #include "mesh/chunk_room.hpp"
+#include "process/cube_stage_list.hpp"
 #include "process/stage_list.hpp"
 
 namespace mc::pipe {
@@ -76,7 +77,8 @@ class Shares {
 };
 
 std::uint64_t own_budget(const TaskList& tasks, const RunOptions& options) {
-  return memory_beside(tasks.input_bytes(), options.memory_bytes);
+  const std::uint64_t beside = memory_beside(tasks.input_bytes(), options.memory_bytes);
+  return beside - std::min(beside, tasks.kept.planned);
 }
 
 std::uint64_t piece_bytes(const TaskList& tasks, std::uint64_t budget) {
@@ -135,11 +137,17 @@ std::string allowed(std::uint64_t bytes) {
 }
 
 std::string run_name(const RunOptions& options) {
-  const process::StageList stages(options.stages);
-  return stages.need_windows() ? "this run with " + stages.window_names() : "this run";
+  const std::string names = names_of_rereading(options);
+  return names.empty() ? "this run" : "this run with " + names;
 }
 
 }  // namespace
+
+std::string names_of_rereading(const RunOptions& options) {
+  std::string names = process::StageList(options.stages).window_names();
+  if (!names.empty() && !options.cube_stages.empty()) names += ", ";
+  return names + process::CubeStageList(options.cube_stages).names();
+}
 
 std::string mebibytes(std::uint64_t bytes) {
   return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MiB";
@@ -148,7 +156,8 @@ std::string mebibytes(std::uint64_t bytes) {
 std::uint64_t least_bytes(TaskList& tasks, const RunOptions& options) {
   tasks.fit(1, 0);
   const std::uint64_t chunk = tasks.least_chunk_bytes();
-  const std::uint64_t own = own_bytes(tasks, {1, chunk, n_makers(tasks, 1), chunk}, options);
+  const std::uint64_t own =
+      own_bytes(tasks, {1, chunk, n_makers(tasks, 1), chunk}, options) + tasks.kept.least;
   return own + std::min(own, tasks.input_bytes());
 }
 
@@ -158,7 +167,7 @@ std::uint64_t bytes_of(const TaskList& tasks, const Room& room, std::uint64_t co
   const std::uint64_t n_slots =
       std::min<std::uint64_t>(room.n_slots, std::max<std::size_t>(tasks.n_tasks(), 1));
   const std::uint64_t fixed = tasks.input_bytes() + kProgramBytes + selection_bytes(options) +
-                              process::StageList(options.stages).held_bytes() +
+                              process::StageList(options.stages).held_bytes() + tasks.kept.planned +
                               tasks.held_bytes(n_slots, room.n_makers);
   const std::uint64_t growing = shares.growing(content_bytes);
   if (content_bytes < room.chunk_bytes / kMostGrowth) return fixed + n_slots * growing;

@@ -18,6 +18,9 @@ inline constexpr std::uint64_t kProgramBytes = 12U << 20U;
 /// "3 MiB", rounded up.
 std::string mebibytes(std::uint64_t bytes);
 
+/// "a, b": the stages for which samples are read more than once and memory depends on the surface.
+std::string names_of_rereading(const RunOptions& options);
+
 /// Fits tasks into the memory that `options` allow, with as many on their way as there is room for.
 /// Errors   limit: not even one at a time; the message names the least budget.
 Room room_within(TaskList& tasks, const RunOptions& options);

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <string>
 #include <vector>
 
 #include "base/parallel.hpp"
 #include "mc/pipe.hpp"
 #include "mesh/chunk_room.hpp"
+#include "pipe/cube_run.hpp"
 #include "pipe/drive.hpp"
 #include "pipe/label_components.hpp"
 #include "pipe/room.hpp"
 #include "pipe/tasks.hpp"
 #include "pipe/window_tasks.hpp"
+#include "process/cube_stage_list.hpp"
 #include "process/stage_list.hpp"
 
 // A run: its tasks, as much room as its memory allows, and the drive that takes it through.
@@ -29,6 +32,12 @@ std::unique_ptr<pipe::TaskList> dense_tasks_for(const pipe::PlaneInput& input,
 
 std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunOptions& options) {
   process::StageList(options.stages).check();
+  process::CubeStageList(options.cube_stages).check();
+  if (options.extract.part && !options.cube_stages.empty()) {
+    throw Error(ErrorKind::usage, "part",
+                "layers have no mesh of their own with " +
+                    process::CubeStageList(options.cube_stages).names());
+  }
   if (is_dense(reader)) {
     if (options.extract.part && is_stream(reader)) {
       throw Error(ErrorKind::usage, volume_of(reader).name, "a stream cannot be meshed in parts");
@@ -41,28 +50,45 @@ std::unique_ptr<pipe::TaskList> tasks_for(const VolumeReader& reader, const RunO
              : pipe::sparse_tasks(leaves, options);
 }
 
-/// Tasks that are planned as far as they must be. A budget that is too small for any surface is
-/// refused before anything is read.
-std::unique_ptr<pipe::TaskList> planned_tasks(const VolumeReader& reader, const RunOptions& options,
-                                              Progress& progress, const std::stop_token& stop) {
-  auto tasks = tasks_for(reader, options);
-  if (process::StageList(options.stages).need_windows() && !is_stream(reader)) {
-    pipe::room_within(*tasks, options);
-    tasks->plan(progress, stop);
-  }
-  return tasks;
+/// Tasks that are planned as far as they must be, and the plan of cubes, if there are cube stages.
+struct Planned {
+  std::unique_ptr<pipe::TaskList> tasks;
+  std::optional<pipe::CubePlan> cubes;
+};
+
+/// A budget that is too small for any surface is refused before anything is read.
+void plan_windows(const VolumeReader& reader, const RunOptions& options, Progress& progress,
+                  const std::stop_token& stop, pipe::TaskList& tasks) {
+  if (!process::StageList(options.stages).need_windows() || is_stream(reader)) return;
+  pipe::room_within(tasks, pipe::extraction_options(options));
+  tasks.plan(progress, stop);
 }
 
-void refuse_stream(const VolumeReader& reader, const process::StageList& stages) {
-  if (is_stream(reader) && stages.need_windows()) {
+Planned planned(const VolumeReader& reader, const RunOptions& options, Progress& progress,
+                const std::stop_token& stop) {
+  Planned out{tasks_for(reader, options), std::nullopt};
+  plan_windows(reader, options, progress, stop, *out.tasks);
+  if (options.cube_stages.empty() || is_stream(reader)) return out;
+  const RunOptions counting = pipe::counting_options(options);
+  const auto tasks = tasks_for(reader, counting);
+  plan_windows(reader, counting, progress, stop, *tasks);
+  out.cubes = pipe::plan_cubes(*tasks, reader, counting, options, progress, stop);
+  out.tasks->kept = pipe::kept_bytes(*out.tasks, out.cubes->bytes, options);
+  return out;
+}
+
+void refuse_stream(const VolumeReader& reader, const RunOptions& options) {
+  const std::string names = pipe::names_of_rereading(options);
+  if (is_stream(reader) && !names.empty()) {
     throw Error(ErrorKind::usage, volume_of(reader).name,
-                "a stream is read only once, but " + stages.window_names() + " needs more",
+                "a stream is read only once, but " + names + " needs more",
                 "copy the stream to disk first");
   }
 }
 
 /// Changes what the tasks were fit to.
-MemoryNeed need_of(pipe::TaskList& tasks, const RunOptions& options) {
+MemoryNeed need_of(pipe::TaskList& tasks, const RunOptions& run_options) {
+  const RunOptions options = pipe::extraction_options(run_options);
   MemoryNeed need;
   need.budget = options.memory_bytes;
   need.least = pipe::least_bytes(tasks, options);
@@ -98,27 +124,36 @@ MeshTotals run_pass(const VolumeReader& reader, const RunOptions& options, bool 
                     const std::optional<ComponentCounts>& components, MeshSink& sink,
                     Progress& progress, const std::stop_token& stop) {
   const process::StageList stages(options.stages);
-  refuse_stream(reader, stages);
+  refuse_stream(reader, options);
   RunOptions chosen = options;
   // Stages that take each chunk alone leave no triangle to measure.
-  if (stages.move_vertices() && !stages.need_windows()) chosen.extract.measure = false;
-  const auto tasks = planned_tasks(reader, chosen, progress, stop);
-  if (options.tell_need) options.tell_need(need_of(*tasks, chosen));
-  const pipe::Room room = pipe::room_within(*tasks, chosen);
-  tasks->set_room(room);
+  if (stages.move_vertices() && !stages.need_windows() && options.cube_stages.empty()) {
+    chosen.extract.measure = false;
+  }
   chosen.to_world = options.to_world.value_or(volume_of(reader).lattice.to_world);
   if (is_stream(reader)) chosen.count_first = CountFirst::no;
-  return pipe::Drive().run(*tasks, room, chosen, allow_empty, components, sink, progress, stop);
+  const Planned plan = planned(reader, chosen, progress, stop);
+  if (options.tell_need) options.tell_need(need_of(*plan.tasks, chosen));
+  const pipe::Room room = pipe::room_within(*plan.tasks, pipe::extraction_options(chosen));
+  plan.tasks->set_room(room);
+  if (plan.cubes) {
+    const pipe::CubeRun run{*plan.tasks, room,        *plan.cubes, reader,
+                            chosen,      allow_empty, components};
+    return pipe::run_cubes(run, sink, progress, stop);
+  }
+  return pipe::Drive().run(*plan.tasks, room, chosen, allow_empty, components, sink, progress,
+                           stop);
 }
 
 }  // namespace
 
 MemoryNeed memory_needed(const VolumeReader& reader, const RunOptions& options) {
-  return need_of(*planned_tasks(reader, options, silent_progress(), {}), options);
+  return need_of(*planned(reader, options, silent_progress(), {}).tasks, options);
 }
 
 MemoryNeed memory_counted(const VolumeReader& reader, const RunOptions& options,
                           const std::stop_token& stop, bool streamed) {
+  assert(options.cube_stages.empty());
   const auto* dense = std::get_if<std::unique_ptr<SlabReader>>(&reader);
   const auto tasks = streamed && dense != nullptr
                          ? dense_tasks_for(pipe::PlaneInput::planned_as_stream(**dense), options)

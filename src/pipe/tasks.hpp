@@ -63,10 +63,16 @@ struct Counts {
   std::uint64_t n_vertices = 0, n_triangles = 0, n_boundary_edges = 0;
 };
 
+/// Bytes that a run holds beside its tasks and their chunks: as it is planned, and at least.
+struct KeptBytes {
+  std::uint64_t planned = 0, least = 0;
+};
+
 /// The work of one extraction. make() may be called from several threads with different slots.
 class TaskList {
  public:
   virtual ~TaskList() = default;
+  KeptBytes kept;
   /// Looks at the volume as far as fit() must know it. Before all below, or not at all if only an
   /// estimate is wanted.
   virtual void plan(Progress& /*progress*/, const std::stop_token& /*stop*/) {}
@@ -125,6 +131,9 @@ std::unique_ptr<BlockEngine> block_engine(const LeafReader& reader, const RunOpt
 /// The layers that there are, as mc::part_layers().
 LayerRange dense_layers(const Volume& volume, const RunOptions& options);
 LayerRange sparse_layers(const LeafReader& reader, const RunOptions& options);
+
+/// The middle of the volume, from which cones are measured, relative to the origin.
+Vec3 cone_apex(const Volume& volume, const RunOptions& options);
 
 /// The method that the options name.
 const Method& method_of(const ExtractOptions& options);

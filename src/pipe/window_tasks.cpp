@@ -62,15 +62,6 @@ Halo halo_of(const process::StageList& stages, std::int64_t thickness) {
   return {layers(reach + 1), layers(reach + 2 + (stages.change_counts() ? thickness - 1 : 0))};
 }
 
-/// The middle of the volume, from which cones are measured, relative to the origin.
-Vec3 apex_of(const Volume& volume, const RunOptions& options) {
-  const IndexBox box = options.extract.region.value_or(volume.lattice.box);
-  const auto middle = [&](std::size_t a) { return 0.5 * (double(box.lo[a]) + double(box.hi[a])); };
-  Vec3 apex = options.to_world.value_or(volume.lattice.to_world)({middle(0), middle(1), middle(2)});
-  for (std::size_t a = 0; a < 3; ++a) apex[a] -= options.extract.origin[a];
-  return apex;
-}
-
 class WindowTasks final : public TaskList {
  public:
   WindowTasks(std::unique_ptr<LayerSource> source, std::int32_t thickness, const Volume& volume,
@@ -86,7 +77,7 @@ class WindowTasks final : public TaskList {
         vertex_bytes_(mesh::vertex_bytes(precision_, has_normals_)),
         measure_(options.extract.measure),
         origin_(options.extract.origin),
-        apex_(apex_of(volume, options)),
+        apex_(cone_apex(volume, options)),
         before_(static_cast<std::size_t>(counted_.last - counted_.first) + 1) {}
 
   void plan(Progress& progress, const std::stop_token& stop) override;

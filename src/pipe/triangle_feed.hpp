@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "pipe/cube_store.hpp"
+
+namespace mc::pipe {
+
+/// Takes the chunks of a mesh in order. Visits the triangles in order, each as soon as it and those
+/// before it have all their vertices, which may lie in later chunks.
+class TriangleFeed {
+ public:
+  /// Appends the chunk's vertices to the store and calls visit(triangle) with their numbers there.
+  /// `starts_task`: it is not a piece. All later triangles name vertices from its first one on.
+  template <class Visit>
+  void add(const MeshChunk& chunk, bool starts_task, CubeStore& store, Visit&& visit) {
+    if (starts_task) first_of_task_ = chunk.index_base;
+    store.append(chunk);
+    const auto id_of = [&](std::size_t n) { return chunk.index_base + chunk.indices[n]; };
+    visit_waiting(store.n_vertices(), visit);
+    for (std::size_t n = 0; n < chunk.indices.size(); n += 3) {
+      const Ids ids{id_of(n), id_of(n + 1), id_of(n + 2)};
+      if (waiting_.empty() && is_complete(ids, store.n_vertices())) {
+        visit(numbers(ids));
+      } else {
+        least_waiting_ = std::min(least_waiting_, std::ranges::min(ids));
+        waiting_.push_back(ids);
+      }
+    }
+  }
+  /// No later triangle names a vertex of the store before this one.
+  [[nodiscard]] std::uint64_t least_named() const {
+    return std::min(first_of_task_, least_waiting_) - first_id_;
+  }
+  /// The store has dropped its first vertices.
+  void dropped(std::size_t n) { first_id_ += n; }
+
+ private:
+  using Ids = std::array<std::uint64_t, 3>;
+  static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+
+  [[nodiscard]] bool is_complete(const Ids& ids, std::size_t n_vertices) const {
+    return std::ranges::max(ids) - first_id_ < n_vertices;
+  }
+  [[nodiscard]] CubeStore::Triangle numbers(const Ids& ids) const {
+    const auto number = [&](std::uint64_t id) {
+      return static_cast<std::uint32_t>(id - first_id_);
+    };
+    return {number(ids[0]), number(ids[1]), number(ids[2])};
+  }
+  template <class Visit>
+  void visit_waiting(std::size_t n_vertices, Visit&& visit) {
+    std::size_t n = 0;
+    while (n < waiting_.size() && is_complete(waiting_[n], n_vertices))
+      visit(numbers(waiting_[n++]));
+    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(n));
+    if (waiting_.empty()) least_waiting_ = kNone;
+  }
+
+  std::vector<Ids> waiting_;
+  std::uint64_t first_id_ = 0;  ///< of the store's first vertex
+  std::uint64_t first_of_task_ = 0;
+  std::uint64_t least_waiting_ = kNone;  ///< least id since waiting_ was empty
+};
+
+}  // namespace mc::pipe
