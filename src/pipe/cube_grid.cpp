@@ -53,23 +53,4 @@ CubeGrid::CubeGrid(const IndexBox& samples, const Affine& to_world, const Vec3& 
   }
 }
 
-Index3 CubeGrid::cube_of(const Vec3& p, bool shifted) const {
-  const std::array<double, 12>& m = to_cubes_.m;
-  const IndexBox& cubes = cubes_[shifted ? 1 : 0];
-  Index3 cube;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const double at = ((m[4 * a] * p[0] + m[4 * a + 1] * p[1]) + m[4 * a + 2] * p[2]) +
-                      m[4 * a + 3] + (shifted ? 0.5 : 0.0);
-    if (!(at > cubes.lo[a])) {
-      cube[a] = cubes.lo[a];  // also what is not a number
-    } else if (at >= cubes.hi[a]) {
-      cube[a] = cubes.hi[a];
-    } else {
-      const auto truncated = static_cast<std::int32_t>(at);
-      cube[a] = truncated - (at < truncated ? 1 : 0);
-    }
-  }
-  return cube;
-}
-
 }  // namespace mc::pipe

@@ -57,9 +57,9 @@ CubeGrid cube_grid(const Volume& volume, bool is_dense, const RunOptions& option
 }
 
 void CubeCounter::count(const CubeStore::Triangle& triangle) {
-  const Vec3 centroid = store_.centroid(triangle);
-  const Index3 first = cubes_.next(centroid);
-  Index3 second = grid_.cube_of(centroid, true);
+  const Vec3 in_cubes = grid_.in_cubes(store_.centroid(triangle));
+  const Index3 first = cubes_.next(in_cubes);
+  Index3 second = grid_.cube_at(in_cubes, true);
   second[2] = std::clamp(second[2], first[2], first[2] + 1);
   if (n_first_ == nullptr || first != latest_first_) {
     n_first_ = &first_[{first[2], first[1], first[0]}];

@@ -44,8 +44,9 @@ CubeGrid cube_grid(const Volume& volume, bool is_dense, const RunOptions& option
 class FirstPassCubes {
  public:
   explicit FirstPassCubes(const CubeGrid& grid) : grid_(grid) {}
-  Index3 next(const Vec3& centroid) {
-    Index3 cube = grid_.cube_of(centroid, false);
+  /// The cube of the next triangle, by the coordinates that the grid gives its centroid.
+  Index3 next(const Vec3& in_cubes) {
+    Index3 cube = grid_.cube_at(in_cubes, false);
     if (z_) cube[2] = std::max(cube[2], *z_);
     z_ = cube[2];
     return cube;

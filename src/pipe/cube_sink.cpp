@@ -89,7 +89,7 @@ void CubeSink::begin_object(const MeshObject& object) {
 
 void CubeSink::place(const MeshChunk& chunk, std::size_t slot) {
   feed_.add(chunk, slot < options_.n_task_slots, raw_, [this](const CubeStore::Triangle& triangle) {
-    raw_.add(first_cubes_.next(raw_.centroid(triangle)), triangle, 1);
+    raw_.add(first_cubes_.next(grid_.in_cubes(raw_.centroid(triangle))), triangle, 1);
   });
   take_complete_layers(false);
 }
