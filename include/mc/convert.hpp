@@ -19,6 +19,7 @@
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
 #include "mc/process.hpp"
+#include "mc/simplify.hpp"
 #include "mc/sink.hpp"
 #include "mc/source.hpp"
 
@@ -130,6 +131,7 @@ struct ConvertOptions {
   CubeStages cube_stages{};          ///< applied after `stages`, in order
   std::optional<Normals> normals{};  ///< unset: gradient where the format holds normals, else none
   std::optional<KeepRule> keep{};    ///< components that remain; unset: all
+  std::optional<SimplifyGoal> simplify{};                ///< applied after cube_stages
   std::uint64_t memory_bytes = std::uint64_t{1} << 30U;  ///< the process's budget
   bool allow_empty = false;                              ///< a mesh without triangles is a success
   bool skip = true;      ///< leave out samples far from the surface where the source can

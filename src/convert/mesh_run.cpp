@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "convert/mesh_formats.hpp"
@@ -53,11 +55,13 @@ MeshRun::MeshRun(const std::string& output, const ConvertOptions& options, Progr
     : output_(output),
       options_(options),
       stages_(options.stages),
+      cube_stages_(options.cube_stages.begin(), options.cube_stages.end()),
       format_(output_format(output, options.sink)),
       progress_(progress),
       stop_(stop),
       report_(report) {
   report_.format = format_.name;
+  if (options.simplify) cube_stages_.push_back(&simplify_.emplace(*options.simplify));
 }
 
 template <class Work>
@@ -154,7 +158,7 @@ void MeshRun::spool_if_read_again() {
   if (!opened_ || !is_stream(opened_->reader)) return;
   const std::vector<IsoChoice>& isos = options_.surface.isos;
   const bool again = isos.size() > 1 || options_.extract.region || options_.keep ||
-                     stages_.need_windows() || !options_.cube_stages.empty();
+                     stages_.need_windows() || !cube_stages_.empty();
   if (iso_needs_data(isos, volume()) || (again && !options_.dry_run)) {
     timed("spool", [&] { spool_stream(opened_->reader, progress_); });
   }
@@ -195,10 +199,9 @@ RunOptions MeshRun::run_options(double iso) const {
   options.attributes = attributes_;
   options.memory_bytes = memory_beside(sampled_bytes_, options_.memory_bytes);
   options.keep = options_.keep;
-  options.count_first =
-      counting_of(reader(), stages_.change_counts() || !options_.cube_stages.empty());
+  options.count_first = counting_of(reader(), stages_.change_counts() || !cube_stages_.empty());
   options.stages = options_.stages;
-  options.cube_stages = options_.cube_stages;
+  options.cube_stages = cube_stages_;
   options.skip = options_.skip;
   options.formatted = needs_.formatted;
   for (const AttributeReader* attribute : attributes_) {
@@ -249,6 +252,28 @@ MeshTotals MeshRun::run_one(double iso, MeshSink& sink) {
   refuse_empty(iso);
 }
 
+/// Says how far the mesh was simplified, and when its shape forbade to reach the goal.
+void MeshRun::report_simplified(const MeshTotals& totals) const {
+  constexpr double kMissed = 1.02;  // of the goal; cubes round theirs
+  const double cell = std::cbrt(std::abs(report_.frame->to_world.determinant()));
+  const auto n_extracted = static_cast<double>(totals.n_extracted);
+  const auto n = static_cast<double>(totals.n_triangles);
+  progress_.note(
+      fmt::format("simplified {} to {} triangles ({:.1f} %); vertices moved away {:.3g} cells rms, "
+                  "{:.3g} at most",
+                  totals.n_extracted, totals.n_triangles, 100 * n / n_extracted,
+                  totals.distances->rms / cell, totals.distances->max / cell));
+  const SimplifyGoal& goal = *options_.simplify;
+  const double wanted = goal.by == SimplifyGoal::By::ratio ? goal.ratio * n_extracted
+                        : goal.by == SimplifyGoal::By::count
+                            ? std::min(n_extracted, static_cast<double>(goal.count))
+                            : n;
+  if (n > kMissed * wanted) {
+    progress_.note(fmt::format(
+        "{:.0f} triangles were asked for, but to remove more would harm the mesh", wanted));
+  }
+}
+
 void MeshRun::report_totals(const MeshTotals& totals) const {
   if (surface_.border == Border::open && !options_.surface.border && totals.n_boundary_edges != 0 &&
       !stages_.change_counts()) {
@@ -266,6 +291,7 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
     const ComponentCounts& components = *totals.components;
     progress_.note(fmt::format("kept {} of {} components", components.kept, components.found));
   }
+  if (simplify_ && totals.n_extracted != 0) report_simplified(totals);
   progress_.detail(
       fmt::format("{}: {} vertices, {} triangles", output_, totals.n_vertices, totals.n_triangles));
   if (totals.n_skipped == 0) return;
@@ -276,7 +302,7 @@ void MeshRun::report_totals(const MeshTotals& totals) const {
 
 void MeshRun::write() {
   if (!stages_.empty()) progress_.detail(fmt::format("stages: {}", stages_.names()));
-  const process::CubeStageList cube_stages(options_.cube_stages);
+  const process::CubeStageList cube_stages(cube_stages_);
   if (!cube_stages.empty()) progress_.detail(fmt::format("cube stages: {}", cube_stages.names()));
   timed("extract", [&] {
     const std::unique_ptr<MeshSink> sink = open_mesh_sink(output_, sink_options());

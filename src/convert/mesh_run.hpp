@@ -51,10 +51,13 @@ class MeshRun {
   [[noreturn]] void refuse_empty(double iso);
   MeshTotals run_one(double iso, MeshSink& sink);
   void report_totals(const MeshTotals& totals) const;
+  void report_simplified(const MeshTotals& totals) const;
 
   const std::string& output_;
   const ConvertOptions& options_;
   process::StageList stages_;
+  std::optional<Simplify> simplify_;
+  std::vector<const CubeStage*> cube_stages_;
   const SinkFormat& format_;
   Progress& progress_;
   const std::stop_token& stop_;

@@ -81,7 +81,7 @@ void CubeCounter::count(const CubeStore::Triangle& triangle) {
 }
 
 void CubeCounter::place(const MeshChunk& chunk, std::size_t slot) {
-  feed_.add(chunk, slot < n_task_slots_, store_,
+  feed_.add(chunk, slot < n_forward_slots_, store_,
             [this](const CubeStore::Triangle& triangle) { count(triangle); });
   const auto n =
       static_cast<std::size_t>(std::min<std::uint64_t>(feed_.least_named(), store_.n_vertices()));

@@ -62,9 +62,10 @@ class FirstPassCubes {
 /// Counts the triangles of each cube of a mesh.
 class CubeCounter final : public MeshSink {
  public:
-  /// Keeps a reference to the grid. Chunks of tasks come in the first `n_task_slots` slots.
-  CubeCounter(const CubeGrid& grid, std::size_t n_task_slots)
-      : grid_(grid), cubes_(grid), n_task_slots_(n_task_slots) {}
+  /// Keeps a reference to the grid. Chunks in the first `n_forward_slots` slots name no vertex
+  /// before their own first one.
+  CubeCounter(const CubeGrid& grid, std::size_t n_forward_slots)
+      : grid_(grid), cubes_(grid), n_forward_slots_(n_forward_slots) {}
 
   void begin_object(const MeshObject& /*object*/) override {}
   void place(const MeshChunk& chunk, std::size_t slot) override;
@@ -88,7 +89,7 @@ class CubeCounter final : public MeshSink {
 
   const CubeGrid& grid_;
   FirstPassCubes cubes_;
-  std::size_t n_task_slots_;
+  std::size_t n_forward_slots_;
   CubeStore store_;  ///< vertices only
   std::uint64_t n_dropped_ = 0;
   TriangleFeed feed_;

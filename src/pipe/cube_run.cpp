@@ -8,6 +8,7 @@
 #include "pipe/drive.hpp"
 #include "pipe/room.hpp"
 #include "process/cube_stage_list.hpp"
+#include "process/stage_list.hpp"
 
 namespace mc::pipe {
 
@@ -22,6 +23,12 @@ class NullSink final : public MeshSink {
   void finish() override {}
 };
 
+/// The first slots, whose chunks name no vertex before their own first one: those of tasks, and of
+/// a sparse volume all, as pieces are tasks that are shorter.
+std::size_t n_forward_slots(const VolumeReader& reader, const Room& room) {
+  return is_dense(reader) ? room.n_slots : room.n_slots + room.n_makers;
+}
+
 /// Cubes at once that the kept memory was planned for.
 std::size_t n_workers(const KeptBytes& kept, const CubeBytes& cubes) {
   if (cubes.worker == 0) return base::pipeline_slots();
@@ -33,7 +40,7 @@ MeshTotals make(const CubeRun& run, const CubeGrid& grid, const std::optional<Me
   const std::size_t n = n_workers(run.tasks.kept, run.plan.bytes);
   const CubeSink::Options options{run.options,
                                   run.plan,
-                                  run.room.n_slots,
+                                  n_forward_slots(run.reader, run.room),
                                   n,
                                   n * run.plan.bytes.worker,
                                   cone_apex(volume_of(run.reader), run.options)};
@@ -53,6 +60,11 @@ RunOptions extraction_options(const RunOptions& options) {
   out.formatted = stored_bytes(options);
   out.extract.measure = false;
   out.count_first = CountFirst::no;
+  // A layer of cubes is complete when a task has begun above it: tasks that are thicker than a part
+  // of it hold more of the mesh than is planned, where their chunks do not.
+  if (out.slab_layers == 0 && !process::StageList(options.stages).need_windows()) {
+    out.slab_layers = std::max(process::CubeStageList(options.cube_stages).n_cells() / 8, 1);
+  }
   return out;
 }
 
@@ -67,7 +79,7 @@ CubePlan plan_cubes(TaskList& tasks, const VolumeReader& reader, const RunOption
   const Room room = room_within(tasks, counting);
   tasks.set_room(room);
   const CubeGrid grid = cube_grid(volume_of(reader), is_dense(reader), counting);
-  CubeCounter counter(grid, room.n_slots);
+  CubeCounter counter(grid, n_forward_slots(reader, room));
   Drive().run(tasks, room, counting, true, {}, counter, progress, stop);
   return counter.plan(options);
 }

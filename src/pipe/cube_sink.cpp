@@ -88,9 +88,10 @@ void CubeSink::begin_object(const MeshObject& object) {
 }
 
 void CubeSink::place(const MeshChunk& chunk, std::size_t slot) {
-  feed_.add(chunk, slot < options_.n_task_slots, raw_, [this](const CubeStore::Triangle& triangle) {
-    raw_.add(first_cubes_.next(grid_.in_cubes(raw_.centroid(triangle))), triangle, 1);
-  });
+  feed_.add(chunk, slot < options_.n_forward_slots, raw_,
+            [this](const CubeStore::Triangle& triangle) {
+              raw_.add(first_cubes_.next(grid_.in_cubes(raw_.centroid(triangle))), triangle, 1);
+            });
   take_complete_layers(false);
 }
 

@@ -50,10 +50,10 @@ class CubeSink final : public MeshSink {
   struct Options {
     const RunOptions& run;
     const CubePlan& plan;
-    std::size_t n_task_slots;    ///< chunks of tasks come in these, pieces in the others
-    std::size_t n_workers;       ///< cubes at once
-    std::uint64_t worker_bytes;  ///< for all of them
-    Vec3 apex;                   ///< from which volumes are measured, relative to the origin
+    std::size_t n_forward_slots;  ///< whose chunks name no vertex before their own first one
+    std::size_t n_workers;        ///< cubes at once
+    std::uint64_t worker_bytes;   ///< for all of them
+    Vec3 apex;                    ///< from which volumes are measured, relative to the origin
   };
   /// Keeps references to all of them. run.to_world is set.
   CubeSink(const CubeGrid& grid, const Options& options, MeshSink& out,

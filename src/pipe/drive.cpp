@@ -22,6 +22,10 @@ bool has_chunk(const TaskResult& result) {
   return result.chunk.n_vertices() != 0 || result.chunk.n_triangles() != 0;
 }
 
+/// Whether a task's chunk goes to the sink: one that is empty as well if pieces follow, so that
+/// sinks see where each task starts.
+bool is_placed(const TaskResult& task) { return has_chunk(task) || !task.complete; }
+
 Error no_surface(const process::StageList& stages) {
   if (!stages.change_counts()) return {ErrorKind::empty, {}, "no surface at this iso"};
   return {ErrorKind::empty, {}, stages.window_names() + ": no surface is left at this iso"};
@@ -100,14 +104,14 @@ void Drive::Work::number(std::size_t slot) {
   TaskResult& task = results[slot];
   task.chunk.index_base += n_numbered;
   n_numbered += task.totals.n_vertices;
-  if (has_chunk(task) || !task.complete) {
+  if (is_placed(task)) {
     begin_object_once();
   }
 }
 
 void Drive::Work::place(std::size_t slot) {
   TaskResult& task = results[slot];
-  if (has_chunk(task)) sink.place(task.chunk, slot);
+  if (is_placed(task)) sink.place(task.chunk, slot);
   if (!task.complete) complete(slot);
   sum.add(task.totals);
 }
@@ -210,13 +214,13 @@ void Drive::Work::extract() {
       {true, [this](std::size_t /*n*/, std::size_t slot) { number(slot); }},
       {false,
        [this](std::size_t /*n*/, std::size_t slot) {
-         if (has_chunk(results[slot])) sink.format(results[slot].chunk, slot);
+         if (is_placed(results[slot])) sink.format(results[slot].chunk, slot);
        }},
       {true, [this](std::size_t /*n*/, std::size_t slot) { place(slot); }},
       {false,
        [this](std::size_t n, std::size_t slot) {
          look_at_stop();
-         if (has_chunk(results[slot])) sink.write(results[slot].chunk, slot);
+         if (is_placed(results[slot])) sink.write(results[slot].chunk, slot);
          progress.advance(tasks.samples(n));
        }},
   }};

@@ -66,7 +66,7 @@ void plan_windows(const VolumeReader& reader, const RunOptions& options, Progres
 
 Planned planned(const VolumeReader& reader, const RunOptions& options, Progress& progress,
                 const std::stop_token& stop) {
-  Planned out{tasks_for(reader, options), std::nullopt};
+  Planned out{tasks_for(reader, pipe::extraction_options(options)), std::nullopt};
   plan_windows(reader, options, progress, stop, *out.tasks);
   if (options.cube_stages.empty() || is_stream(reader)) return out;
   const RunOptions counting = pipe::counting_options(options);

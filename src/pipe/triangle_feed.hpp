@@ -17,10 +17,10 @@ namespace mc::pipe {
 class TriangleFeed {
  public:
   /// Appends the chunk's vertices to the store and calls visit(triangle) with their numbers there.
-  /// `starts_task`: it is not a piece. All later triangles name vertices from its first one on.
+  /// `is_forward`: its triangles and all later ones name vertices from its first one on.
   template <class Visit>
-  void add(const MeshChunk& chunk, bool starts_task, CubeStore& store, Visit&& visit) {
-    if (starts_task) first_of_task_ = chunk.index_base;
+  void add(const MeshChunk& chunk, bool is_forward, CubeStore& store, Visit&& visit) {
+    if (is_forward) first_named_ = chunk.index_base;
     store.append(chunk);
     const auto id_of = [&](std::size_t n) { return chunk.index_base + chunk.indices[n]; };
     visit_waiting(store.n_vertices(), visit);
@@ -36,7 +36,7 @@ class TriangleFeed {
   }
   /// No later triangle names a vertex of the store before this one.
   [[nodiscard]] std::uint64_t least_named() const {
-    return std::min(first_of_task_, least_waiting_) - first_id_;
+    return std::min(first_named_, least_waiting_) - first_id_;
   }
   /// The store has dropped its first vertices.
   void dropped(std::size_t n) { first_id_ += n; }
@@ -65,7 +65,7 @@ class TriangleFeed {
 
   std::vector<Ids> waiting_;
   std::uint64_t first_id_ = 0;  ///< of the store's first vertex
-  std::uint64_t first_of_task_ = 0;
+  std::uint64_t first_named_ = 0;  ///< least id that later triangles name
   std::uint64_t least_waiting_ = kNone;  ///< least id since waiting_ was empty
 };
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The program keeps within --memory, and says before what it will take.
 
-    budget.py --mc MC mesh|statistics|least|estimate [--vdb] [--exr]
+    budget.py --mc MC mesh|statistics|least|simplify|estimate [--vdb] [--exr]
 
 Every run with a budget has the kernel's own limit on memory that is not of files (RLIMIT_DATA), is
 watched from outside, and gives the bytes of a run that may take all it wants.
@@ -10,6 +10,7 @@ watched from outside, and gives the bytes of a run that may take all it wants.
 
 import argparse
 import json
+import math
 import os
 import pathlib
 import random
@@ -141,6 +142,24 @@ def check_least(mc, folder):
                      f"{less.returncode}")
 
 
+def check_simplify(mc, folder):
+    """Simplification keeps within the least budget that a dry run names, and is refused below."""
+    for words, _ in make_inputs(folder).values():
+        simplified = [*words, "--simplify", "ratio=0.2"]
+        told = subprocess.run([mc, "extract", *simplified, "-o", "s.ply", "--dry-run", "-v"],
+                              cwd=folder, capture_output=True, text=True, check=True)
+        least = math.ceil(float(re.search(r"([0-9.]+) MiB would do", told.stdout).group(1)))
+        free = extract(mc, simplified, "s.ply", 4096, 2, folder)
+        for budget, threads in ((least, 1), (least, 7), (least + least // 2, 7)):
+            if extract(mc, simplified, "s.ply", budget, threads, folder) != free:
+                sys.exit(f"{words[0]}: other bytes within {budget} MiB")
+        less = subprocess.run([mc, "extract", *simplified, "-o", "r.ply", "--memory",
+                               f"{least - 1}MiB"], cwd=folder, capture_output=True, text=True)
+        if less.returncode != 6 or "simplify needs at least" not in less.stderr:
+            sys.exit(f"{words[0]}: {least - 1} MiB are less than the least, but status is "
+                     f"{less.returncode}: {less.stderr}")
+
+
 def ball_spec(cells):
     return {"format": "mc-volume", "version": 1, "convention": "sdf", "iso": 0,
             "grid": {"cells": [cells] * 3, "spacing": 1, "origin": [-cells / 2] * 3},
@@ -232,7 +251,7 @@ def main():
     parser.add_argument("--vdb", action="store_true", help="VDB can be written and read")
     parser.add_argument("--exr", action="store_true", help="and OpenEXR")
     checks = {"mesh": check_mesh, "statistics": check_statistics, "least": check_least,
-              "estimate": check_estimate}
+              "simplify": check_simplify, "estimate": check_estimate}
     parser.add_argument("part", choices=checks)
     args = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:

@@ -127,6 +127,8 @@ std::vector<Option> surface_options(SurfaceArgs& a) {
        &a.normals, kNormals},
       {"--keep", "WHICH", "components: largest, the N largest, volume>=X or area>=X", true,
        &a.keep},
+      {"--simplify", "GOAL", "fewer triangles: ratio=R, count=N, or error=E cells", true,
+       &a.simplify},
   };
 }
 

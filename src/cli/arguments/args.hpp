@@ -34,7 +34,7 @@ struct CommonArgs {
 struct SurfaceArgs {
   Text iso, inside, region, border;
   bool invert = false;
-  Text interpolation, cutoff, min_edge, topology, normals, keep;
+  Text interpolation, cutoff, min_edge, topology, normals, keep, simplify;
   bool allow_empty = false, no_skip = false;
 };
 

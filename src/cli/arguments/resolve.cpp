@@ -164,6 +164,31 @@ std::optional<KeepRule> resolve_keep(const SurfaceArgs& args) {
   return KeepRule{.n = static_cast<std::uint64_t>(n)};
 }
 
+/// How far to simplify.
+std::optional<SimplifyGoal> resolve_simplify(const SurfaceArgs& args) {
+  if (!args.simplify) return std::nullopt;
+  constexpr std::string_view kOption = "--simplify";
+  const std::string_view text = *args.simplify;
+  const auto value_of = [&](std::string_view name) -> std::optional<std::string_view> {
+    if (!text.starts_with(name)) return std::nullopt;
+    return text.substr(name.size());
+  };
+  if (const auto ratio = value_of("ratio=")) {
+    return SimplifyGoal{.by = SimplifyGoal::By::ratio,
+                        .ratio = parse_number_within(kOption, *ratio, 0, 1)};
+  }
+  if (const auto count = value_of("count=")) {
+    const std::int64_t n =
+        parse_integer(kOption, *count, 0, std::numeric_limits<std::int64_t>::max());
+    return SimplifyGoal{.by = SimplifyGoal::By::count, .count = static_cast<std::uint64_t>(n)};
+  }
+  if (const auto error = value_of("error=")) {
+    return SimplifyGoal{.by = SimplifyGoal::By::error,
+                        .error = parse_number_within(kOption, *error, 0, kInfinity)};
+  }
+  refuse(kOption, fmt::format("unknown value '{}': expected ratio=R, count=N or error=E", text));
+}
+
 std::optional<Normals> resolve_normals(const SurfaceArgs& args, const SinkFormat& format) {
   if (!args.normals) return std::nullopt;
   const Normals normals = parse_normals(*args.normals);
@@ -375,6 +400,7 @@ ConvertOptions resolve_conversion(const SourceOptions& source, const SurfaceArgs
   options.extract = resolve_extraction(surface);
   options.normals = resolve_normals(surface, format);
   options.keep = resolve_keep(surface);
+  options.simplify = resolve_simplify(surface);
   options.frame = resolve_frame(out);
   options.sink = resolve_sink(out, format);
   options.memory_bytes = resolve_memory(out.memory);

@@ -165,6 +165,9 @@ EditPlan resolve(const EditArgs& typed) {
   if (options.chunks && options.base.keep) {
     refuse("--keep", "chunks are made one by one, and their components are not known");
   }
+  if (options.chunks && options.base.simplify) {
+    refuse("--simplify", "chunks are made one by one, and would not fit together");
+  }
   if (args.undo) {
     options.undo = static_cast<std::size_t>(
         parse_integer("--undo", *args.undo, 0, std::numeric_limits<std::int32_t>::max()));

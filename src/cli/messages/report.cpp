@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "base/machine_memory.hpp"
@@ -53,6 +54,26 @@ Json input_json(const ConvertReport& report) {
   input["up"] = at && at->source_frame == Frame::none ? Json(name_of(at->source_up)) : Json();
   input["units"] = at ? Json(name_of(at->source_units)) : Json();
   return input;
+}
+
+/// What simplification left, in world units and in cells.
+void add_simplified(Json& json, const ConvertReport& report) {
+  if (report.totals.empty() || !report.totals.front().distances || !report.frame) return;
+  std::uint64_t n = 0;
+  MeshDistances all;
+  double sum_squares = 0;
+  for (const MeshTotals& one : report.totals) {
+    n += one.n_extracted;
+    sum_squares += static_cast<double>(one.n_extracted) * one.distances->rms * one.distances->rms;
+    all.max = std::max(all.max, one.distances->max);
+  }
+  if (n != 0) all.rms = std::sqrt(sum_squares / static_cast<double>(n));
+  const double cell = std::cbrt(std::abs(report.frame->to_world.determinant()));
+  json["extracted_triangles"] = n;
+  json["distance_rms"] = all.rms;
+  json["distance_max"] = all.max;
+  json["distance_rms_cells"] = all.rms / cell;
+  json["distance_max_cells"] = all.max / cell;
 }
 
 void add_totals(Json& json, const std::vector<MeshTotals>& totals) {
@@ -169,6 +190,7 @@ std::string to_json(const RunReport& report) {
   json["dims"] = done.volume ? dims_json(done.volume->lattice.box) : Json();
   json["affine"] = done.frame ? Json(done.frame->to_world.m) : Json();
   add_totals(json, done.totals);
+  add_simplified(json, done);
   json["stages"] = stages_json(done.stages);
   json["peak_bytes"] = report.peak_bytes;
   json["warnings"] = report.warnings;

@@ -112,7 +112,24 @@ TEST(Resolve, TakesRulesForComponents) {
   EXPECT_FALSE(plan_of({"v.vdb", "-o", "m.ply"}).convert.keep);
 }
 
+TEST(Resolve, TakesGoalsOfSimplification) {
+  const auto goal = [](const char* text) {
+    return plan_of({"v.vdb", "-o", "m.ply", "--simplify", text}).convert.simplify;
+  };
+  using By = SimplifyGoal::By;
+  EXPECT_EQ(goal("ratio=0.25"), (SimplifyGoal{.by = By::ratio, .ratio = 0.25}));
+  EXPECT_EQ(goal("count=100000"), (SimplifyGoal{.by = By::count, .count = 100'000}));
+  EXPECT_EQ(goal("error=0.1"), (SimplifyGoal{.by = By::error, .error = 0.1}));
+  EXPECT_FALSE(plan_of({"v.vdb", "-o", "m.ply"}).convert.simplify);
+}
+
 TEST(Resolve, RefusesValues) {
+  EXPECT_EQ(refused({"--simplify", "0.5"}),
+            "--simplify: unknown value '0.5': expected ratio=R, count=N or error=E");
+  EXPECT_EQ(refused({"--simplify", "ratio=2"}), "--simplify: 2 is out of range: expected 0 to 1");
+  EXPECT_EQ(refused({"--simplify", "count=-1"}),
+            "--simplify: -1 is out of range: expected 0 to 9223372036854775807");
+  EXPECT_EQ(refused({"--simplify", "error=x"}), "--simplify: 'x' is no number");
   EXPECT_EQ(refused({"--keep", "smallest"}),
             "--keep: unknown value 'smallest': expected largest, a number, volume>=X or area>=X");
   EXPECT_EQ(refused({"--keep", "0"}),
