@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/parallel.hpp"
 #include "mesh/chunk_room.hpp"
 #include "pipe/cube_part.hpp"
 #include "process/cube_stage_list.hpp"
@@ -25,7 +26,7 @@ std::uint64_t vertex_bytes(const RunOptions& options) {
 
 Formatted stored_bytes(const RunOptions& options) {
   return {static_cast<std::uint32_t>(vertex_bytes(options) + kStoredVertexBytes),
-          static_cast<std::uint32_t>(mesh::kTriangleBytes)};
+          static_cast<std::uint32_t>(2 * mesh::kTriangleBytes + sizeof(PassCubes))};
 }
 
 namespace {
@@ -56,11 +57,26 @@ CubeGrid cube_grid(const Volume& volume, bool is_dense, const RunOptions& option
           process::CubeStageList(options.cube_stages).n_cells(), is_dense};
 }
 
-void CubeCounter::count(const CubeStore::Triangle& triangle) {
-  const Vec3 in_cubes = grid_.in_cubes(store_.centroid(triangle));
-  const Index3 first = cubes_.next(in_cubes);
-  Index3 second = grid_.cube_at(in_cubes, true);
-  second[2] = std::clamp(second[2], first[2], first[2] + 1);
+std::span<const PassCubes> CubeSequence::next(std::span<const CubeStore::Triangle> triangles,
+                                              const CubeStore& store) {
+  constexpr std::size_t kGrain = 4096;
+  cubes_.resize(triangles.size());
+  base::for_ranges(triangles.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Vec3 in_cubes = grid_.in_cubes(store.centroid(triangles[t]));
+      cubes_[t] = {grid_.cube_at(in_cubes, false), grid_.cube_at(in_cubes, true)};
+    }
+  });
+  for (PassCubes& cubes : cubes_) {
+    if (z_) cubes.first[2] = std::max(cubes.first[2], *z_);
+    z_ = cubes.first[2];
+    cubes.second[2] = std::clamp(cubes.second[2], *z_, *z_ + 1);
+  }
+  return cubes_;
+}
+
+void CubeCounter::count(const CubeStore::Triangle& triangle, const PassCubes& cubes) {
+  const auto& [first, second] = cubes;
   if (n_first_ == nullptr || first != latest_first_) {
     n_first_ = &first_[{first[2], first[1], first[0]}];
     latest_first_ = first;
@@ -81,8 +97,9 @@ void CubeCounter::count(const CubeStore::Triangle& triangle) {
 }
 
 void CubeCounter::place(const MeshChunk& chunk, std::size_t slot) {
-  feed_.add(chunk, slot < n_forward_slots_, store_,
-            [this](const CubeStore::Triangle& triangle) { count(triangle); });
+  const auto triangles = feed_.add(chunk, slot < n_forward_slots_, store_);
+  const std::span<const PassCubes> cubes = cubes_.next(triangles, store_);
+  for (std::size_t t = 0; t < triangles.size(); ++t) count(triangles[t], cubes[t]);
   const auto n =
       static_cast<std::size_t>(std::min<std::uint64_t>(feed_.least_named(), store_.n_vertices()));
   store_.drop_first(n);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "mc/mesh.hpp"
 #include "mc/pipe.hpp"
@@ -39,23 +41,25 @@ std::uint64_t worker_bytes(std::uint64_t n_vertices, std::uint64_t n_triangles,
 /// The grid of a run. Errors   input: a map that cannot be inverted.
 CubeGrid cube_grid(const Volume& volume, bool is_dense, const RunOptions& options);
 
+/// The cubes of a triangle in the two passes.
+struct PassCubes {
+  Index3 first, second;
+};
+
 /// The cubes of triangles in the order of the mesh. Layers of cubes follow one another: where
 /// stages have moved a triangle below the layer of the one before, it goes to that layer.
-class FirstPassCubes {
+class CubeSequence {
  public:
-  explicit FirstPassCubes(const CubeGrid& grid) : grid_(grid) {}
-  /// The cube of the next triangle, by the coordinates that the grid gives its centroid.
-  Index3 next(const Vec3& in_cubes) {
-    Index3 cube = grid_.cube_at(in_cubes, false);
-    if (z_) cube[2] = std::max(cube[2], *z_);
-    z_ = cube[2];
-    return cube;
-  }
+  explicit CubeSequence(const CubeGrid& grid) : grid_(grid) {}
+  /// The cubes of the next triangles; valid until the next call. Threads: works on several.
+  std::span<const PassCubes> next(std::span<const CubeStore::Triangle> triangles,
+                                  const CubeStore& store);
   /// The layer of the latest triangle.
   [[nodiscard]] std::optional<std::int32_t> z() const { return z_; }
 
  private:
   const CubeGrid& grid_;
+  std::vector<PassCubes> cubes_;
   std::optional<std::int32_t> z_;
 };
 
@@ -65,7 +69,7 @@ class CubeCounter final : public MeshSink {
   /// Keeps a reference to the grid. Chunks in the first `n_forward_slots` slots name no vertex
   /// before their own first one.
   CubeCounter(const CubeGrid& grid, std::size_t n_forward_slots)
-      : grid_(grid), cubes_(grid), n_forward_slots_(n_forward_slots) {}
+      : cubes_(grid), n_forward_slots_(n_forward_slots) {}
 
   void begin_object(const MeshObject& /*object*/) override {}
   void place(const MeshChunk& chunk, std::size_t slot) override;
@@ -84,11 +88,10 @@ class CubeCounter final : public MeshSink {
     [[nodiscard]] std::uint64_t n_vertices() const { return last_id - first_id + 1; }
   };
 
-  void count(const CubeStore::Triangle& triangle);
+  void count(const CubeStore::Triangle& triangle, const PassCubes& cubes);
   [[nodiscard]] std::uint64_t largest() const;
 
-  const CubeGrid& grid_;
-  FirstPassCubes cubes_;
+  CubeSequence cubes_;
   std::size_t n_forward_slots_;
   CubeStore store_;  ///< vertices only
   std::uint64_t n_dropped_ = 0;

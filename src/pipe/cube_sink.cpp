@@ -56,7 +56,7 @@ CubeSink::CubeSink(const CubeGrid& grid, const Options& options, MeshSink& out,
       stages_(options.run.cube_stages),
       out_(out),
       stop_(stop),
-      first_cubes_(grid) {
+      sequence_(grid) {
   const RunOptions& run = options.run;
   if (!run.attributes.empty()) {
     attributes_.emplace(run.attributes, run.to_world.value(), run.extract.origin);
@@ -88,18 +88,16 @@ void CubeSink::begin_object(const MeshObject& object) {
 }
 
 void CubeSink::place(const MeshChunk& chunk, std::size_t slot) {
-  feed_.add(chunk, slot < options_.n_forward_slots, raw_,
-            [this](const CubeStore::Triangle& triangle) {
-              raw_.add(first_cubes_.next(grid_.in_cubes(raw_.centroid(triangle))), triangle, 1);
-            });
+  const auto triangles = feed_.add(chunk, slot < options_.n_forward_slots, raw_);
+  const std::span<const PassCubes> cubes = sequence_.next(triangles, raw_);
+  for (std::size_t t = 0; t < triangles.size(); ++t) raw_.add(cubes[t].first, triangles[t], 1);
   take_complete_layers(false);
 }
 
 /// Takes out layers that no further triangle belongs to, and whose vertices none names.
 void CubeSink::take_complete_layers(bool all) {
   const auto is_complete = [&](const std::pair<const std::int32_t, Layer>& lowest) {
-    return all ||
-           (lowest.first < first_cubes_.z() && lowest.second.last_vertex < feed_.least_named());
+    return all || (lowest.first < sequence_.z() && lowest.second.last_vertex < feed_.least_named());
   };
   bool taken = false;
   while (!raw_.layers().empty() && is_complete(*raw_.layers().begin())) {

@@ -104,7 +104,7 @@ class CubeSink final : public MeshSink {
   MeshObject object_;
   std::optional<MeshTotals> counts_;
   std::optional<VertexAttributes> attributes_;
-  FirstPassCubes first_cubes_;
+  CubeSequence sequence_;
   TriangleFeed feed_;
   CubeStore raw_, left_;
   std::vector<std::uint8_t> open_raw_;  ///< vertices with triangles in layers that are not closed

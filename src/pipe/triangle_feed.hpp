@@ -6,33 +6,37 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "pipe/cube_store.hpp"
 
 namespace mc::pipe {
 
-/// Takes the chunks of a mesh in order. Visits the triangles in order, each as soon as it and those
+/// Takes the chunks of a mesh in order. Lists the triangles in order, each as soon as it and those
 /// before it have all their vertices, which may lie in later chunks.
 class TriangleFeed {
  public:
-  /// Appends the chunk's vertices to the store and calls visit(triangle) with their numbers there.
+  /// Appends the chunk's vertices to the store. Returns the triangles that are complete now, by the
+  /// numbers of their vertices there; valid until the next call.
   /// `is_forward`: its triangles and all later ones name vertices from its first one on.
-  template <class Visit>
-  void add(const MeshChunk& chunk, bool is_forward, CubeStore& store, Visit&& visit) {
+  std::span<const CubeStore::Triangle> add(const MeshChunk& chunk, bool is_forward,
+                                           CubeStore& store) {
     if (is_forward) first_named_ = chunk.index_base;
     store.append(chunk);
     const auto id_of = [&](std::size_t n) { return chunk.index_base + chunk.indices[n]; };
-    visit_waiting(store.n_vertices(), visit);
+    complete_.clear();
+    take_waiting(store.n_vertices());
     for (std::size_t n = 0; n < chunk.indices.size(); n += 3) {
       const Ids ids{id_of(n), id_of(n + 1), id_of(n + 2)};
       if (waiting_.empty() && is_complete(ids, store.n_vertices())) {
-        visit(numbers(ids));
+        complete_.push_back(numbers(ids));
       } else {
         least_waiting_ = std::min(least_waiting_, std::ranges::min(ids));
         waiting_.push_back(ids);
       }
     }
+    return complete_;
   }
   /// No later triangle names a vertex of the store before this one.
   [[nodiscard]] std::uint64_t least_named() const {
@@ -54,18 +58,19 @@ class TriangleFeed {
     };
     return {number(ids[0]), number(ids[1]), number(ids[2])};
   }
-  template <class Visit>
-  void visit_waiting(std::size_t n_vertices, Visit&& visit) {
+  void take_waiting(std::size_t n_vertices) {
     std::size_t n = 0;
-    while (n < waiting_.size() && is_complete(waiting_[n], n_vertices))
-      visit(numbers(waiting_[n++]));
+    while (n < waiting_.size() && is_complete(waiting_[n], n_vertices)) {
+      complete_.push_back(numbers(waiting_[n++]));
+    }
     waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(n));
     if (waiting_.empty()) least_waiting_ = kNone;
   }
 
+  std::vector<CubeStore::Triangle> complete_;
   std::vector<Ids> waiting_;
-  std::uint64_t first_id_ = 0;  ///< of the store's first vertex
-  std::uint64_t first_named_ = 0;  ///< least id that later triangles name
+  std::uint64_t first_id_ = 0;           ///< of the store's first vertex
+  std::uint64_t first_named_ = 0;        ///< least id that later triangles name
   std::uint64_t least_waiting_ = kNone;  ///< least id since waiting_ was empty
 };
 

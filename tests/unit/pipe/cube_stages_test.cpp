@@ -186,17 +186,18 @@ TEST(CubeGrid, StartsAtTheLowestSampleOrAtMultiples) {
   EXPECT_THROW(pipe::CubeGrid({}, Affine::scale_translate({1, 0, 1}, {}), {}, 8, false), Error);
 }
 
-TEST(TriangleFeed, VisitsTrianglesInOrderOnceTheirVerticesAreThere) {
+TEST(TriangleFeed, ListsTrianglesInOrderOnceTheirVerticesAreThere) {
   pipe::CubeStore store;
   pipe::TriangleFeed feed;
   std::vector<pipe::CubeStore::Triangle> visited;
   const auto add = [&](std::uint64_t base, std::size_t n_vertices,
-                       std::vector<std::uint32_t> indices, bool starts_task) {
+                       std::vector<std::uint32_t> indices, bool is_forward) {
     MeshChunk chunk;
     chunk.index_base = base;
     chunk.positions.resize(3 * n_vertices);
     chunk.indices.assign(indices.begin(), indices.end());
-    feed.add(chunk, starts_task, store, [&](const auto& t) { visited.push_back(t); });
+    const auto complete = feed.add(chunk, is_forward, store);
+    visited.insert(visited.end(), complete.begin(), complete.end());
   };
   add(0, 3, {0, 1, 2, 1, 2, 3, 0, 2, 1}, true);
   EXPECT_EQ(visited.size(), 1U);
