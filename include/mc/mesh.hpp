@@ -126,9 +126,9 @@ struct MeshNeeds {
 /// Destroyed before finish(), it leaves nothing behind.
 ///
 /// A chunk goes through three steps, in all of which it has the same slot, its own until the last
-/// has ended: what a sink keeps of a chunk from step to step lives there. Chunks are in order, and
-/// only place() sees them so; the other two run on several threads, each with another slot. Between
-/// begin_object() and end_object() of one object nothing else is called.
+/// has ended: what a sink keeps of a chunk from step to step lives there. A chunk may be empty.
+/// Chunks are in order, and only place() sees them so; the other two run on several threads, each
+/// with another slot. Between begin_object() and end_object() of one object nothing else is called.
 class MeshSink {
  public:
   virtual ~MeshSink() = default;

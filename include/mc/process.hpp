@@ -35,13 +35,14 @@
 // and triangles. There are two passes. The first cuts the mesh into cubes of n_cells() cells along
 // each edge; the second cuts the result into cubes that are shifted by half of that:
 //
-//     +-------+-------+-------+         . . . . . . . . . . . . .
-//     |       |       |       |         .   +-------+-------+   .
-//     |       |       |       |         .   |       |       |   .
-//     +-------+-------+-------+   then  . --+-------+-------+-- .
-//     |       |       |       |         .   |       |       |   .
-//     |       |       |       |         .   +-------+-------+   .
-//     +-------+-------+-------+         . . . . . . . . . . . . .
+//     first pass              second pass
+//     +-------+-------+       +---+-------+---+
+//     |       |       |       |   |       |   |
+//     |       |       |       +---+-------+---+
+//     +-------+-------+       |   |       |   |
+//     |       |       |       |   |       |   |
+//     |       |       |       +---+-------+---+
+//     +-------+-------+       +---+-------+---+
 //
 // A triangle belongs to the cube that its centroid lies in. Vertices with triangles in several
 // cubes are the seam, which must stay as it is. What is on the seam of the first pass is almost

@@ -52,7 +52,7 @@ RunOptions options_for(std::uint64_t seed) {
   RunOptions options;
   options.extract.iso = 0.25;
   options.extract.border = seed % 2 == 0 ? Border::closed : Border::open;
-  options.extract.normals = Normals(seed % 3);
+  options.extract.normals = Normals((seed + seed / 3) % 3);
   return options;
 }
 
@@ -82,7 +82,7 @@ void expect_no_new_defects(const Collected& got, const Collected& before) {
 
 TEST(Simplification, OfRandomFieldsMakesNoDefects) {
   const Index3 dims{29, 25, 41};
-  for (std::uint64_t seed = 0; seed < 12; ++seed) {
+  for (std::uint64_t seed = 0; seed < 9; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const VolumeReader reader =
         dense(dims, std::array{Noise::white, Noise::plateaus, Noise::smooth}[seed % 3], seed);
