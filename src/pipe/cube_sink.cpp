@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "pipe/cube_sink.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -41,6 +45,13 @@ double density(const MeshChunk& mesh, double n_extracted) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.n_triangles(); ++t) sum += area(mesh, t);
   return sum > 0 && std::isfinite(sum) ? n_extracted / sum : 0;
+}
+
+/// Gives memory that nothing uses back to the system.
+void return_free_memory() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
 }
 
 }  // namespace
@@ -143,6 +154,8 @@ void CubeSink::apply(const CubeStore& store, Cube& cube, std::span<const std::ui
                   is_last};
   stages_.apply(window);
   part.distances = window.distances;
+  // The allocator keeps what a thread has freed, for each thread that has worked on a cube.
+  if (options_.n_workers < base::pipeline_slots()) return_free_memory();
 }
 
 void CubeSink::first_pass(std::int32_t z, Layer& layer) {
