@@ -113,17 +113,19 @@ class DenseTasks final : public TaskList {
     const std::int64_t n_layers = range_.last - range_.first;
     const std::int64_t n_seen =
         std::min(n_layers, std::max(n_layers / kLayersPerSample, kLeastSamples));
-    SurfaceTotals totals;
+    std::uint64_t n_triangles = 0;
+    SurfaceTotals layer_totals;
     Slab slab;
     for (std::int64_t n = 0; n < n_seen; ++n) {
       const auto layer =
           static_cast<std::int32_t>(range_.first + (2 * n + 1) * n_layers / (2 * n_seen));
       const auto [k0, k1] = engine->planes_for(layer, layer + 1);
       planes_.read(k0, k1, slab);
-      engine->count(slab, layer, layer + 1, totals);
+      engine->count(slab, layer, layer + 1, layer_totals);
+      n_triangles += layer_totals.n_triangles;
     }
     return n_seen == 0 ? 0
-                       : totals.n_triangles * static_cast<std::uint64_t>(n_layers) /
+                       : n_triangles * static_cast<std::uint64_t>(n_layers) /
                              static_cast<std::uint64_t>(n_seen);
   }
   void count(std::size_t n, std::size_t slot, TaskResult& out) override {
