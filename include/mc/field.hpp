@@ -297,9 +297,11 @@ class SlabReader {
   /// Whether reading planes again costs no more than memory bandwidth (mapped files).
   [[nodiscard]] virtual bool rereads_cheaply() const = 0;
   /// A reader of the same planes that copies them, if that is faster than what read() does; its
-  /// slabs share planes through Slab::shared. It refers to this reader, and its own volume() may
-  /// lie elsewhere in the world. Null: there is none.
-  [[nodiscard]] virtual std::unique_ptr<SlabReader> copies() const { return nullptr; }
+  /// slabs share planes through Slab::shared, `n_planes` of them at once. It refers to this reader,
+  /// and its own volume() may lie elsewhere in the world. Null: there is none.
+  [[nodiscard]] virtual std::unique_ptr<SlabReader> copies(std::size_t /*n_planes*/) const {
+    return nullptr;
+  }
   /// What the volume's vertices carry; all of them pass check_attributes().
   [[nodiscard]] virtual AttributeReaders attributes() const { return {}; }
   /// Memory that it holds from plane to plane, pages of mapped files aside.

@@ -22,7 +22,7 @@ DensePlanes::DensePlanes(const PlaneInput& from, const RunOptions& options) : in
 }
 
 void DensePlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
-  reads_copies_ ? copies_->read(k0, k1, out) : input.read(k0, k1, query, out);
+  copies_ ? copies_->read(k0, k1, out) : input.read(k0, k1, query, out);
 }
 
 std::uint64_t DensePlanes::hold_copies(std::uint64_t n_planes, std::uint64_t bytes) {
@@ -32,11 +32,12 @@ std::uint64_t DensePlanes::hold_copies(std::uint64_t n_planes, std::uint64_t byt
       std::min(bytes, kMostBytesAThread * static_cast<std::uint64_t>(base::thread_count()));
   const std::uint64_t n_bytes = n_planes * plane_bytes;
   const std::uint64_t wanted = n_samples * sample_size(input.volume().type);  // of a plane
-  reads_copies_ = false;
-  if (n_bytes > most || wanted < plane_bytes / 2) return 0;
-  if (!std::exchange(has_tried_, true)) copies_ = input.copies();
-  reads_copies_ = copies_ != nullptr;
-  return reads_copies_ ? n_bytes : 0;
+  if (n_bytes > most || wanted < plane_bytes / 2) {
+    copies_.reset();
+  } else if (std::exchange(n_copies_, n_planes) != n_planes || !copies_) {
+    copies_ = input.copies(static_cast<std::size_t>(n_planes));
+  }
+  return copies_ ? n_bytes : 0;
 }
 
 std::int32_t shared_planes(const SlabEngine& engine) {

@@ -27,9 +27,8 @@ struct DensePlanes {
   std::uint64_t plane_bytes = 0;      ///< of a plane of the volume
 
  private:
-  std::unique_ptr<SlabReader> copies_;  ///< null: not asked for yet, or none are faster
-  bool has_tried_ = false;
-  bool reads_copies_ = false;
+  std::unique_ptr<SlabReader> copies_;  ///< null: none are made
+  std::uint64_t n_copies_ = 0;
 };
 
 /// Planes of a slab beside one for each of its layers.

@@ -42,8 +42,8 @@ class PlaneInput {
   [[nodiscard]] bool single_pass() const { return single_pass_; }
   [[nodiscard]] bool rereads_cheaply() const { return !single_pass_ && reader_->rereads_cheaply(); }
   /// SlabReader::copies().
-  [[nodiscard]] std::unique_ptr<SlabReader> copies() const {
-    return single_pass_ ? nullptr : reader_->copies();
+  [[nodiscard]] std::unique_ptr<SlabReader> copies(std::size_t n_planes) const {
+    return single_pass_ ? nullptr : reader_->copies(n_planes);
   }
   [[nodiscard]] std::uint64_t held_bytes() const {
     return single_pass_ ? 0 : reader_->held_bytes();

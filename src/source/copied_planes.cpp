@@ -15,12 +15,15 @@
 
 namespace mc::source {
 
-CopiedPlanes::CopiedPlanes(const Volume& volume, const PlaneBytes& planes, std::string place)
+CopiedPlanes::CopiedPlanes(const Volume& volume, const PlaneBytes& planes, std::string place,
+                           std::size_t n_planes)
     : volume_(volume),
       planes_(planes),
       place_(std::move(place)),
       pool_(std::make_shared<PlanePool>(planes.n_bytes)),
-      known_(static_cast<std::size_t>(volume.lattice.dims()[2])) {}
+      known_(static_cast<std::size_t>(volume.lattice.dims()[2])) {
+  pool_->reserve(n_planes);
+}
 
 void CopiedPlanes::fill(std::int32_t k, std::byte* to) const {
   std::uint64_t at = planes_.offset + static_cast<std::uint64_t>(k) * planes_.n_bytes;

@@ -27,8 +27,10 @@ struct PlaneBytes {
 
 class CopiedPlanes final : public SlabReader {
  public:
-  /// Borrows the descriptor. `place` is how messages name the file.
-  CopiedPlanes(const Volume& volume, const PlaneBytes& planes, std::string place);
+  /// Borrows the descriptor. `place` is how messages name the file. Takes memory for `n_planes`
+  /// that slabs share at once; more are read, too.
+  CopiedPlanes(const Volume& volume, const PlaneBytes& planes, std::string place,
+               std::size_t n_planes);
 
   [[nodiscard]] const Volume& volume() const override { return volume_; }
   /// A plane that another slab still holds is not read again: neighbouring slabs share theirs.

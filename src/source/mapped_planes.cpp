@@ -35,7 +35,7 @@ void MappedPlanes::read(std::int32_t k0, std::int32_t k1, Slab& out) const {
   }
 }
 
-std::unique_ptr<SlabReader> MappedPlanes::copies() const {
+std::unique_ptr<SlabReader> MappedPlanes::copies(std::size_t n_planes) const {
   if (reading_ == Reading::mapped || files_.size() != 1) return nullptr;
   const PlaneFile& in = files_.front();
   if (in.file.descriptor() < 0) return nullptr;
@@ -45,7 +45,7 @@ std::unique_ptr<SlabReader> MappedPlanes::copies() const {
               copies_faster(planes, in.file.bytes().subspan(in.offset_bytes));
   });
   if (!copies_) return nullptr;
-  return std::make_unique<CopiedPlanes>(volume_, planes, in.file.place());
+  return std::make_unique<CopiedPlanes>(volume_, planes, in.file.place(), n_planes);
 }
 
 std::optional<std::uint64_t> volume_bytes(std::int64_t nx, std::int64_t ny, std::int64_t nz,

@@ -33,7 +33,7 @@ class MappedPlanes final : public SlabReader {
   [[nodiscard]] const Volume& volume() const override { return volume_; }
   void read(std::int32_t k0, std::int32_t k1, Slab& out) const override;
   [[nodiscard]] bool rereads_cheaply() const override { return true; }
-  [[nodiscard]] std::unique_ptr<SlabReader> copies() const override;
+  [[nodiscard]] std::unique_ptr<SlabReader> copies(std::size_t n_planes) const override;
 
  private:
   Volume volume_;

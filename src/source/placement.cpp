@@ -28,7 +28,9 @@ class PlacedReader final : public SlabReader {
     reader_->read_surface(k0, k1, query, out);
   }
   [[nodiscard]] bool rereads_cheaply() const override { return reader_->rereads_cheaply(); }
-  [[nodiscard]] std::unique_ptr<SlabReader> copies() const override { return reader_->copies(); }
+  [[nodiscard]] std::unique_ptr<SlabReader> copies(std::size_t n_planes) const override {
+    return reader_->copies(n_planes);
+  }
   [[nodiscard]] AttributeReaders attributes() const override { return reader_->attributes(); }
   [[nodiscard]] std::uint64_t held_bytes() const override { return reader_->held_bytes(); }
 

@@ -3,6 +3,15 @@
 
 namespace mc::source {
 
+void PlanePool::reserve(std::size_t n) {
+  const std::lock_guard lock(mutex_);
+  free_.reserve(n);
+  while (all_.size() < n) {
+    all_.emplace_back().resize(plane_bytes_);
+    free_.push_back(&all_.back());
+  }
+}
+
 std::shared_ptr<std::byte> PlanePool::take() {
   Buffer<std::byte>* plane = any_free();
   plane->resize(plane_bytes_);

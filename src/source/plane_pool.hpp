@@ -17,6 +17,8 @@ class PlanePool : public std::enable_shared_from_this<PlanePool> {
  public:
   explicit PlanePool(std::size_t plane_bytes) : plane_bytes_(plane_bytes) {}
 
+  /// Takes memory for `n` planes that are there at once.
+  void reserve(std::size_t n);
   /// A plane of undefined contents. It keeps the pool alive.
   [[nodiscard]] std::shared_ptr<std::byte> take();
 

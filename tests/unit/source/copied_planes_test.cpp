@@ -49,7 +49,7 @@ class CopiedPlanes : public ::testing::Test {
 
 TEST_F(CopiedPlanes, AreThoseOfTheFile) {
   const Source source = open(Reading::copied);
-  const auto copies = slabs(source).copies();
+  const auto copies = slabs(source).copies(8);
   ASSERT_NE(copies, nullptr);
   Slab slab;
   for (std::int32_t k = 0; k < kPlanes; k += 7) {
@@ -67,7 +67,7 @@ TEST_F(CopiedPlanes, AreThoseOfTheFile) {
 
 TEST_F(CopiedPlanes, OfNeighboursAreReadOnce) {
   const Source source = open(Reading::copied);
-  const auto copies = slabs(source).copies();
+  const auto copies = slabs(source).copies(8);
   Slab lower, upper;
   copies->read(0, 5, lower);
   copies->read(3, 8, upper);
@@ -89,7 +89,7 @@ TEST_F(CopiedPlanes, OfNeighboursAreReadOnce) {
 
 TEST_F(CopiedPlanes, AreReadByManyThreadsAtOnce) {
   const Source source = open(Reading::copied);
-  const auto copies = slabs(source).copies();
+  const auto copies = slabs(source).copies(8);
   std::vector<std::thread> threads;
   std::atomic<int> n_wrong = 0;
   for (int t = 0; t < 4; ++t) {
@@ -110,7 +110,7 @@ TEST_F(CopiedPlanes, AreReadByManyThreadsAtOnce) {
 
 TEST_F(CopiedPlanes, OfAFileThatWasCutAreAnError) {
   const Source source = open(Reading::copied);
-  const auto copies = slabs(source).copies();
+  const auto copies = slabs(source).copies(8);
   Slab slab;
   std::filesystem::resize_file(path_, kHead.size() + 10 * kPlaneBytes + 1);
   copies->read(7, 10, slab);
@@ -123,8 +123,8 @@ TEST_F(CopiedPlanes, OfAFileThatWasCutAreAnError) {
 }
 
 TEST_F(CopiedPlanes, AreNotMadeIfMappedOrOfSmallFiles) {
-  EXPECT_EQ(slabs(open(Reading::mapped)).copies(), nullptr);
-  EXPECT_EQ(slabs(open(Reading::fastest)).copies(), nullptr);
+  EXPECT_EQ(slabs(open(Reading::mapped)).copies(8), nullptr);
+  EXPECT_EQ(slabs(open(Reading::fastest)).copies(8), nullptr);
 }
 
 TEST_F(CopiedPlanes, AreNotMadeOfSlices) {
@@ -133,7 +133,7 @@ TEST_F(CopiedPlanes, AreNotMadeOfSlices) {
   options.skip_bytes = 0;
   const std::vector<std::string> slices{folder_.file("1.raw", counting_bytes(kPlaneBytes)),
                                         folder_.file("2.raw", counting_bytes(kPlaneBytes))};
-  EXPECT_EQ(slabs(test::open(slices, options)).copies(), nullptr);
+  EXPECT_EQ(slabs(test::open(slices, options)).copies(8), nullptr);
 }
 
 }  // namespace
