@@ -95,17 +95,21 @@ inline void put_vertices(const MeshChunk& chunk, std::size_t first, std::size_t 
   chunk.positions_f64.empty() ? with_normals(chunk.positions) : with_normals(chunk.positions_f64);
 }
 
-/// Makes records of one index each: its vertex in the whole mesh, which fits the type.
+/// Makes records of one index each: the index and `base`, which fit the type together.
 template <class Index>
-auto id_encoder(const MeshChunk& chunk) {
-  return [&chunk](std::size_t first, std::size_t last, std::byte* at) {
-    const auto base = static_cast<std::uint32_t>(chunk.index_base);
+auto id_encoder(const MeshChunk& chunk, std::uint32_t base) {
+  return [&chunk, base](std::size_t first, std::size_t last, std::byte* at) {
     const std::uint32_t* index = chunk.indices.data();
     for (std::size_t n = first; n < last; ++n, at += sizeof(Index)) {
       const auto id = static_cast<Index>(base + index[n]);
       std::memcpy(at, &id, sizeof id);
     }
   };
+}
+/// The same with ids of the whole mesh.
+template <class Index>
+auto id_encoder(const MeshChunk& chunk) {
+  return id_encoder<Index>(chunk, static_cast<std::uint32_t>(chunk.index_base));
 }
 
 }  // namespace mc::sink

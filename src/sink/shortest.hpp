@@ -35,14 +35,27 @@ inline int leading_zeros(std::uint64_t digits) {
   return std::countr_zero((digits ^ 0x3030303030303030) | kLastCounts) / 8;
 }
 
-/// Writes n < 10^8 at `at`, where there is room for 8 bytes, and returns its end.
-inline char* print_small(char* at, std::uint32_t n) {
+/// The text of an integer: the first character is the lowest byte.
+struct ShortText {
+  std::uint64_t characters;
+  std::size_t n;
+};
+
+/// The text of n < 10^8.
+inline ShortText small_text(std::uint32_t n) {
   const std::uint64_t digits = eight_digits(n);
   const int zeros = leading_zeros(digits);
-  const std::uint64_t shown = digits >> (8 * zeros);
-  std::memcpy(at, &shown, sizeof shown);
-  return at + 8 - zeros;
+  return {digits >> (8 * zeros), static_cast<std::size_t>(8 - zeros)};
 }
+
+/// Writes `text` at `at`, where there is room for 8 bytes, and returns its end.
+inline char* print_short(char* at, const ShortText& text) {
+  std::memcpy(at, &text.characters, sizeof text.characters);
+  return at + text.n;
+}
+
+/// Writes n < 10^8 at `at`, where there is room for 8 bytes, and returns its end.
+inline char* print_small(char* at, std::uint32_t n) { return print_short(at, small_text(n)); }
 
 /// digits * 10^exponent
 struct Decimal {
@@ -71,25 +84,25 @@ inline Decimal shortest_decimal(float x) {
   // power of two: k = floor(q log10(2)), or that of 3/4 2^q.
   const bool is_power = fraction == 0;
   const int k = (q * 1262611 - (is_power ? 524031 : 0)) >> 22;
-  // In quarters of 10^k; what lies between two of them is odd.
-  const auto in_units = [&](std::uint64_t quarters) {
-    const std::uint64_t product = quarters * kPowersOf10[-k];
-    const std::uint64_t units = product >> -q;
-    return units | static_cast<std::uint64_t>(units << -q != product);
-  };
-  const std::uint64_t open = c & 1;  // ties go to even: an odd float does not own its ends
-  const std::uint64_t lower = in_units(4 * c - 2 + (is_power ? 1 : 0)) + open;
-  const std::uint64_t upper = in_units(4 * c + 2) - open;
-  const std::uint64_t middle = in_units(4 * c);
-  const std::uint64_t s = middle / 4;
-  const std::uint64_t tens = 10 * (s / 10);
-  const bool tens_in = lower <= 4 * tens;
-  const bool next_tens_in = 4 * tens + 40 <= upper;
-  const bool s_in = lower <= 4 * s;
-  const bool next_s_in = 4 * s + 4 <= upper;
-  const bool nearer_next = middle > 4 * s + 2 || (middle == 4 * s + 2 && s % 2 == 1);
+  // |x| = value / unit in 10^k, and how far from it what rounds to x may lie. Ties go to even: an
+  // odd float does not own its ends.
+  const std::uint64_t power = kPowersOf10[-k];
+  const std::uint64_t value = c * power;
+  const std::uint64_t unit = std::uint64_t{1} << -q;
+  const std::uint64_t open = c & 1;
+  const std::uint64_t most_down = (is_power ? power / 4 : power / 2) - open;
+  const std::uint64_t most_up = power / 2 - open;
+  const std::uint64_t s = value >> -q;
+  const std::uint64_t down = value & (unit - 1);
+  const std::uint64_t last_digit = s % 10;
+  const std::uint64_t down_to_tens = (last_digit << -q) + down;
+  const bool tens_in = down_to_tens <= most_down;
+  const bool next_tens_in = 10 * unit - down_to_tens <= most_up;
+  const bool s_in = down <= most_down;
+  const bool next_s_in = unit - down <= most_up;
+  const bool nearer_next = 2 * down + (s & 1) > unit;
   const std::uint64_t one = s + ((s_in != next_s_in ? !s_in : nearer_next) ? 1 : 0);
-  const std::uint64_t ten = tens + (tens_in ? 0 : 10);
+  const std::uint64_t ten = s - last_digit + (tens_in ? 0 : 10);
   return {static_cast<std::uint32_t>(tens_in != next_tens_in ? ten : one), k};
 }
 
@@ -104,17 +117,22 @@ inline char* print_shortest(char* at, float x) {
   at += std::signbit(x) ? 1 : 0;
   const std::uint32_t first = d.digits / 100000000;
   const std::uint64_t others = eight_digits(d.digits % 100000000);
-  const int zeros = first != 0 ? 0 : 1 + leading_zeros(others);
   const int cut = std::countl_zero(others ^ 0x3030303030303030) / 8;  // zeros at the end
-  const NineDigits digits = (NineDigits{others} << 8 | ('0' + first)) >> (8 * zeros);
-  const int n = 9 - zeros;
-  const int n_whole = n + d.exponent;  // digits before the point; below 1: zeros behind it
-  if (n_whole <= 0) {
+  if (std::fabs(x) < 1) {
+    // 8 to 10 digits behind the point: the nine need no zeros taken away. Of 8 the first is 0, and
+    // the point takes its place.
     constexpr std::array<char, 4> kZeros{'0', '.', '0', '0'};
     std::memcpy(at, kZeros.data(), kZeros.size());
-    std::memcpy(at + 2 - n_whole, &digits, sizeof digits);
-    return at + 2 - n_whole + n - cut;
+    char* const nine = at - 7 - d.exponent;
+    *nine = static_cast<char>('0' + first);
+    std::memcpy(nine + 1, &others, sizeof others);
+    at[1] = '.';
+    return nine + 9 - cut;
   }
+  const int zeros = first != 0 ? 0 : 1 + leading_zeros(others);
+  const NineDigits digits = (NineDigits{others} << 8 | ('0' + first)) >> (8 * zeros);
+  const int n = 9 - zeros;
+  const int n_whole = n + d.exponent;  // digits before the point
   const NineDigits behind = digits >> (8 * n_whole);
   std::memcpy(at, &digits, 8);
   at[n_whole] = '.';

@@ -7,7 +7,10 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
+
+#include "sink/text.hpp"
 
 namespace mc::sink {
 namespace {
@@ -41,6 +44,53 @@ TEST(Shortest, PowersAndTheirNeighboursAreThoseOfToChars) {
           ASSERT_EQ(by_us(x), by_library(x));
         }
       }
+    }
+  }
+}
+
+TEST(Shortest, NeighboursOfShortDecimalsAreThoseOfToChars) {
+  // The interval that rounds to a float has one of these at or near its ends.
+  for (int digits = 1; digits < 10000; ++digits) {
+    for (int places = 0; places < 7; ++places) {
+      const auto x = static_cast<float>(digits / std::pow(10.0, places));
+      for (const float near : {std::nextafter(x, 0.0F), x, std::nextafter(x, 1e9F)}) {
+        if (is_in_fast_range(near)) {
+          ASSERT_EQ(by_us(near), by_library(near));
+          ASSERT_EQ(by_us(-near), by_library(-near));
+        }
+      }
+    }
+  }
+}
+
+/// A number printed as the text formats print it.
+template <class Number>
+std::string printed(Number x) {
+  std::array<char, 40> text{};
+  return {text.data(), print_number(text.data(), x)};
+}
+
+TEST(Shortest, FloatsOfAllExponentsAreThoseOfToChars) {
+  std::uint32_t random = 1;
+  for (std::uint32_t exponent = 0; exponent < 256; ++exponent) {
+    for (int i = 0; i < 2000; ++i) {
+      random = random * 1664525 + 1013904223;
+      const auto x = std::bit_cast<float>(exponent << 23 | (random & 0x807FFFFF));
+      ASSERT_EQ(printed(x), by_library(x));
+      if (!std::isfinite(x)) continue;
+      const std::string text = printed(x);
+      float back = 0;
+      std::from_chars(text.data(), text.data() + text.size(), back);
+      ASSERT_EQ(std::bit_cast<std::uint32_t>(back), std::bit_cast<std::uint32_t>(x)) << text;
+    }
+  }
+}
+
+TEST(Shortest, IntegersAtPowersOfTenAreThoseOfToChars) {
+  std::uint64_t power = 1;
+  for (int e = 0; e < 20; ++e, power *= 10) {
+    for (const std::uint64_t n : {power - 1, power, power + 1}) {
+      ASSERT_EQ(printed(n), by_library(n));
     }
   }
 }
