@@ -73,22 +73,27 @@ std::span<const Ids> triangles_of(const MeshChunk& chunk) {
   return {reinterpret_cast<const Ids*>(chunk.indices.data()), chunk.n_triangles()};
 }
 
+/// Makes room for what chunks like this one can leave.
+void reserve(const MeshChunk& chunk, Tail& tail) {
+  make_room(tail.triangles, chunk.indices.capacity() / 3);
+  make_room(tail.positions, chunk.positions.capacity() + chunk.positions_f64.capacity());
+}
+
 /// Takes triangles [first, end) of the chunk, and of its positions those from their lowest vertex.
 void take_tail(const MeshChunk& chunk, std::size_t first, std::span<const float> positions,
                Tail& tail) {
   tail.clear();
+  reserve(chunk, tail);
   const std::span<const Ids> triangles = triangles_of(chunk).subspan(first);
   if (triangles.empty()) return;
   const auto [lowest, highest] = std::minmax_element(
       chunk.indices.begin() + static_cast<std::ptrdiff_t>(3 * first), chunk.indices.end());
   const std::size_t first_kept = std::min<std::size_t>(*lowest, chunk.n_vertices());
   const auto base = static_cast<std::uint32_t>(first_kept);
-  make_room(tail.triangles, chunk.indices.capacity() / 3);
   for (const Ids& ids : triangles) {
     tail.triangles.push_back({ids[0] - base, ids[1] - base, ids[2] - base});
   }
   const std::span<const float> own = positions.subspan(3 * first_kept);
-  make_room(tail.positions, chunk.positions.capacity() + chunk.positions_f64.capacity());
   tail.positions.assign(own.begin(), own.end());
   tail.first_vertex = first_kept;
   tail.first_triangle = first;
@@ -213,6 +218,7 @@ void StlSink::format(const MeshChunk& chunk, std::size_t slot) {
     return std::max({ids[0], ids[1], ids[2]}) >= n;
   };
   s.n_head = static_cast<std::size_t>(std::ranges::find_if(triangles, is_late) - triangles.begin());
+  reserve(chunk, s.before);
   take_tail(chunk, s.n_head, positions_of(chunk, s), s.tail);
 }
 
@@ -270,6 +276,7 @@ void StlSink::place(const MeshChunk& chunk, std::size_t slot) {
     return place_late(first_triangle, chunk.n_triangles(), s.late);
   }
   s.first_triangle = first_triangle;
+  if (tail_.triangles.capacity() == 0) reserve(chunk, tail_);
   if (s.tail.empty()) return;
   s.tail.first_vertex += first_vertex;
   s.tail.first_triangle += first_triangle;
