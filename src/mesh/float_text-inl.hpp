@@ -19,7 +19,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mc::mesh::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET == HWY_SCALAR || HWY_HAVE_SCALABLE
 
 /// Leaves all floats to the caller.
 inline void print_floats(const float* /*x*/, std::size_t n, FloatText* to) {
@@ -135,7 +135,6 @@ struct Texts {
 
 /// The nine digits of a decimal with a point between them, after as many zeros as it takes.
 inline Texts with_point(const Decimals& decimals) {
-  const Lanes d;
   const Vec one = lanes_of(1);
   // Digits are at least 2^23: seven to nine.
   const Mask eight = hn::Lt(decimals.digits, lanes_of(100000000));

@@ -26,13 +26,14 @@ bool is_in_range(float x) {
   return x == 0 || (size >= 1e-3F && size < 1e5F);
 }
 
-/// Compares with the library, on the SIMD target that is chosen; scalar leaves all to the caller.
+/// Compares with the library, on the SIMD target that is chosen; scalar and SVE leave all to the
+/// caller.
 void expect_library_text(const std::vector<float>& x, const std::string& target) {
   std::vector<FloatText> texts(x.size());
   print_floats(x.data(), x.size(), texts.data());
   for (std::size_t n = 0; n < x.size(); ++n) {
     const std::string text(texts[n].text.data(), texts[n].n);
-    const bool printed = is_in_range(x[n]) && target != "scalar";
+    const bool printed = is_in_range(x[n]) && target != "scalar" && !target.starts_with("sve");
     ASSERT_EQ(text, printed ? by_library(x[n]) : "") << x[n] << " on " << target;
   }
 }
